@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hone/core/math.h"
+#include "hone/core/scene/scene.glsl.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hone {
+
+/// A camera as people write it.
+struct CameraDesc {
+    std::string name;
+    vec3 position{0, 0, 0};
+    vec3 target{0, 0, -1};
+    vec3 up{0, 1, 0};
+    float fov_y_degrees = 60;
+    float near = 0.01f;
+};
+
+/// The camera's axes made orthonormal. Throws SceneError if position equals target or up is
+/// parallel to the view.
+[[nodiscard]] Camera makeCamera(const CameraDesc& desc);
+
+struct Bounds {
+    vec3 low{1e30f};
+    vec3 high{-1e30f};
+    void add(vec3 point);
+    [[nodiscard]] bool empty() const { return low.x > high.x; }
+    [[nodiscard]] vec3 center() const { return 0.5f * (low + high); }
+};
+
+/// Everything that is drawn and traced: plain arrays in the layouts of scene.glsl.h, world in
+/// metres, y up.
+///
+/// Whoever fills it calls finishScene() once at the end; after that it is read only, except through
+/// methods below that say so. Names are untrusted text.
+struct Scene {
+    std::vector<vec3> positions;  ///< object space
+    std::vector<vec3> normals;    ///< unit, as many as positions
+    std::vector<vec2> uvs;        ///< as many as positions; (0,0) is the texture's top left
+    std::vector<uvec3> triangles; ///< indices into positions; a mesh's are consecutive
+    std::vector<Mesh> meshes;
+    std::vector<Cluster> clusters;
+    std::vector<Instance> instances;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<uint> texels;
+    std::vector<Light> lights;
+    std::vector<Probe> probes;
+    Environment environment{};
+
+    std::vector<CameraDesc> cameras; ///< at least one after finishScene
+    std::vector<std::string> instance_names;
+    std::vector<std::string> material_names;
+    std::string name;                  ///< what the user asked for: a path or builtin:atrium
+    std::vector<std::string> warnings; ///< what was missing or ignored, each naming its file
+    Bounds bounds;                     ///< world space
+
+    /// Changes whenever anything that a pass may read changed. Never 0 after finishScene; unique in
+    /// the process.
+    std::uint64_t version = 0;
+
+    /// The camera of that name; the first for "". Throws SceneError that lists the names.
+    [[nodiscard]] const CameraDesc& camera(std::string_view camera_name) const;
+    [[nodiscard]] std::size_t instancedTriangles() const;
+};
+
+/// Checks indices, drops nothing, orders each mesh's triangles into clusters, computes bounds,
+/// default camera, default probes (one at the box centre of each of the at most four largest mirror
+/// instances, if none was given) and the version. Throws SceneError on an index out of range or
+/// more than 2^31 triangles.
+void finishScene(Scene& scene);
+
+/// Marks the scene as changed (a moved light, an edited material).
+void touch(Scene& scene);
+
+/// Opens "builtin:NAME", a *.scene.json, or a .gltf / .glb. Throws SceneError (bad content, missing
+/// file).
+[[nodiscard]] Scene loadScene(const std::string& name);
+
+/// The names that loadScene knows after "builtin:".
+[[nodiscard]] std::span<const std::string_view> builtinScenes();
+
+} // namespace hone

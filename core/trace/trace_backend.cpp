@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hone/core/trace/trace_backend.h"
+
+#include "hone/core/error.h"
+
+#include <algorithm>
+
+namespace hone {
+
+void TraceBackendRegistry::add(std::string name, std::string doc, Factory factory) {
+    HONE_ASSERT(!contains(name), "two trace backends are called " + name);
+    entries_.push_back({std::move(name), std::move(doc), std::move(factory)});
+}
+
+std::vector<std::string> TraceBackendRegistry::names() const {
+    std::vector<std::string> result;
+    for (const Entry& entry : entries_)
+        result.push_back(entry.name);
+    return result;
+}
+
+const std::string& TraceBackendRegistry::preferred() const {
+    HONE_ASSERT(!entries_.empty(), "the program registered no trace backend");
+    return entries_.front().name;
+}
+
+bool TraceBackendRegistry::contains(std::string_view name) const {
+    return std::ranges::any_of(entries_, [&](const Entry& entry) { return entry.name == name; });
+}
+
+std::unique_ptr<TraceBackend> TraceBackendRegistry::create(std::string_view name) const {
+    auto found =
+        std::ranges::find_if(entries_, [&](const Entry& entry) { return entry.name == name; });
+    HONE_ASSERT(found != entries_.end(), "no trace backend is called " + std::string(name));
+    return found->factory();
+}
+
+} // namespace hone
