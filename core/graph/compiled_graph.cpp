@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hone/core/graph/compiled_graph.h"
+
+#include "hone/core/error.h"
+#include "hone/core/graph/compilation.h"
+#include "hone/core/log.h"
+
+#include <algorithm>
+
+namespace hone {
+
+CompiledGraph compile(const GraphDesc& desc, const Catalog& catalog, const Overrides& overrides,
+                      std::vector<Diagnostic>& diagnostics) {
+    Compilation c(desc, catalog, diagnostics);
+    if (!desc.is_readable)
+        return std::move(c.graph);
+    declareNames(c);
+    resolveEdges(c);
+    checkTypes(c);
+    bindParams(c, overrides);
+    orderNodes(c);
+    const bool failed = std::ranges::any_of(
+        diagnostics, [](const Diagnostic& d) { return d.severity == Severity::kError; });
+    if (!failed) {
+        cullNodes(c);
+        planMemory(c);
+    }
+    // In the order of the file, so that a person reads it once from top to bottom.
+    std::ranges::stable_sort(diagnostics, [](const Diagnostic& a, const Diagnostic& b) {
+        return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+    });
+    return std::move(c.graph);
+}
+
+CompiledGraph loadGraph(const std::string& path, const Catalog& catalog,
+                        const Overrides& overrides) {
+    std::vector<Diagnostic> diagnostics;
+    const GraphDesc desc = parseGraphFile(path, diagnostics);
+    CompiledGraph graph = compile(desc, catalog, overrides, diagnostics);
+    if (std::ranges::any_of(diagnostics,
+                            [](const Diagnostic& d) { return d.severity == Severity::kError; }))
+        throw GraphError(format(diagnostics));
+    for (const Diagnostic& diagnostic : diagnostics)
+        logger().warn("{}", format(diagnostic));
+    return graph;
+}
+
+const PlannedNode* CompiledGraph::findNode(std::string_view node_name) const {
+    const auto found = std::ranges::find(nodes, node_name, &PlannedNode::name);
+    return found != nodes.end() ? &*found : nullptr;
+}
+
+const PlannedParam* CompiledGraph::findParam(std::string_view param) const {
+    const auto found = std::ranges::find_if(
+        params, [&](const PlannedParam& candidate) { return candidate.decl.name == param; });
+    return found != params.end() ? &*found : nullptr;
+}
+
+ValueId CompiledGraph::findValue(std::string_view value_name) const {
+    const auto found = std::ranges::find(values, value_name, &PlannedValue::name);
+    return found != values.end() ? static_cast<ValueId>(found - values.begin()) : kNoId;
+}
+
+} // namespace hone

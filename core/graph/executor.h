@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hone/core/graph/compiled_graph.h"
+#include "hone/core/pass/pass.h"
+#include "hone/core/scene/scene_buffers.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hone {
+
+/// The devices a graph runs on. They must outlive the executor.
+struct Devices {
+    Device* host = nullptr; ///< runs kernels on all cores; always there
+    Device* raster =
+        nullptr; ///< Vulkan; null where there is none: graphs that rasterise then throw DeviceError
+};
+
+/// Limits and callbacks of one run; zero is no limit. They come on top of the graph's own stop
+/// rules and are looked at after each iteration of an outermost loop. A loop that one of them cut
+/// goes on in the next run; if something that it depends on changed, it begins anew.
+struct RunOptions {
+    double max_ms = 0; ///< since run() was called
+    std::uint64_t max_rays = 0;
+    std::uint64_t max_iterations = 0;
+    /// Called after each iteration of an outermost loop that did something; returns false to stop
+    /// there ("cancelled"). May be empty.
+    std::function<bool(const LoopRecord&)> on_iteration{};
+};
+
+/// What one node did, for reports and tests.
+struct NodeReport {
+    std::string name; ///< "refine.trace"
+    std::string type;
+    std::uint64_t runs = 0; ///< since the executor was made
+    double ms = 0;          ///< in the last run(), all its executions together
+    const char* where = ""; ///< "host", "device"
+};
+
+/// Runs a compiled graph, again and again, doing only what is needed: a pass runs when one of its
+/// inputs, its parameters or the extent changed since it last ran. Owns the memory of all values.
+/// One thread at a time.
+///
+/// What passes tell it through their counters: "rays.KIND" (all kinds count for limits of rays and
+/// LoopRecord::rays), "pixels" (requested; LoopRecord::pixels), "worst_expect_bits" (the bits of a
+/// float >= 0; LoopRecord::worst_expect).
+class Executor {
+public:
+    Executor(CompiledGraph graph, const Catalog& catalog, Devices devices, std::uint64_t seed = 0);
+    ~Executor();
+    Executor(const Executor&) = delete;
+    Executor& operator=(const Executor&) = delete;
+
+    /// Values of the graph's inputs. The scene must outlive the executor; a changed Scene::version
+    /// counts as a change.
+    void setScene(const Scene& scene);
+    void setCamera(const Camera& camera);
+    void setExtent(uvec2 extent);
+    /// A pass's or graph's parameter as in Overrides; only what depends on it runs again. Throws
+    /// GraphError.
+    void setParameter(const std::string& path, const std::string& value);
+
+    /// Runs to the end of every loop. Throws DeviceError, SceneError, OutOfMemory. A steady-state
+    /// run (nothing grew) does no heap allocation of its own.
+    void run(const RunOptions& options = {});
+
+    /// The value of a graph output after run(). Throws std::logic_error for an unknown name.
+    [[nodiscard]] const Value& output(std::string_view name) const;
+    /// Any pass's output by "pass.port" or "loop.pass.port", after run(); null when culled, unknown
+    /// or overwritten by a value that shares its memory (dump() tells which do).
+    [[nodiscard]] const Value* find(std::string_view node_and_port) const;
+    [[nodiscard]] std::vector<std::string> outputs() const;
+    [[nodiscard]] std::vector<NodeReport> nodes() const;
+    [[nodiscard]] const Counters& counters() const; ///< of the last run
+    [[nodiscard]] const CompiledGraph& graph() const;
+    [[nodiscard]] std::size_t bytesAllocated() const;
+    [[nodiscard]] Tracers& tracers();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace hone

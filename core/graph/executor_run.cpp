@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What runs: passes whose inputs changed, loops until a rule ends them.
+#include "hone/core/error.h"
+#include "hone/core/graph/executor_state.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace hone {
+namespace {
+
+double msSince(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+        .count();
+}
+
+/// Names a stretch of recorded work, also when it ends with an exception.
+class Scope {
+public:
+    Scope(CommandEncoder* encoder, std::string_view name) : encoder_(encoder) {
+        if (encoder_ != nullptr)
+            encoder_->beginScope(name);
+    }
+    ~Scope() noexcept(false) {
+        if (encoder_ != nullptr)
+            encoder_->endScope();
+    }
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+private:
+    CommandEncoder* encoder_;
+};
+
+/// How passes tell the loop about their work (Counters).
+constexpr std::string_view kRays = "rays.";
+constexpr std::string_view kPixels = "pixels";
+constexpr std::string_view kWorstExpect = "worst_expect_bits";
+
+} // namespace
+
+void Executor::State::run(const RunOptions& run_options) {
+    options = &run_options;
+    run_began = Clock::now();
+    counters.clear();
+    for (NodeState& node : nodes)
+        node.ms = 0;
+    prepareInputs();
+    for (const NodeId id : graph.order)
+        runNode(id, 0);
+    finishDevice();
+    // A hardware device ran on after its passes were recorded; it alone knows how long.
+    if (device != nullptr && !devices.raster->info().is_software)
+        for (const ScopeTiming& timing : devices.raster->takeTimings())
+            for (NodeId id = 0; id < nodes.size(); ++id)
+                if (graph.nodes[id].name == timing.name)
+                    nodes[id].ms += timing.ms;
+}
+
+void Executor::State::prepareInputs() {
+    HONE_ASSERT(extent.x > 0, "setExtent() comes before run()");
+    for (const NamedValue& input : graph.inputs) {
+        if (!graph.values[input.value].is_needed)
+            continue;
+        Value& value = values[input.value];
+        if (value.type->shape == Shape::kCamera)
+            HONE_ASSERT(camera.has_value(),
+                        "the graph reads a camera: setCamera() comes before run()");
+        if (value.type->shape != Shape::kScene)
+            continue;
+        HONE_ASSERT(scene != nullptr, "the graph reads a scene: setScene() comes before run()");
+        if (scene_version != scene->version) {
+            finishDevice();
+            scene_buffers.reset(); // first, so that not both need memory at once
+            scene_buffers.emplace(*memory, *scene);
+            scene_version = scene->version;
+        }
+        // Scene versions are unique in the process, so they need no translation into ours.
+        value.scene = scene;
+        value.scene_buffers = &*scene_buffers;
+        value.version = scene_version;
+    }
+}
+
+/// Must the node run? Compares what it would see with what it saw last.
+bool Executor::State::hasChanged(NodeId id, bool force) {
+    const NodeState& state = nodes[id];
+    if (force || !state.has_run || state.seen_params != state.params_version ||
+        state.seen_extent != extent_version)
+        return true;
+    const PlannedNode& node = graph.nodes[id];
+    for (std::size_t i = 0; i < state.seen_versions.size(); ++i) {
+        const ValueId value =
+            node.loop == kNoId ? node.inputs[i].value : graph.loops[node.loop].reads[i];
+        if (state.seen_versions[i] != values[value].version)
+            return true;
+    }
+    return false;
+}
+
+void Executor::State::markSeen(NodeId id) {
+    NodeState& state = nodes[id];
+    const PlannedNode& node = graph.nodes[id];
+    for (std::size_t i = 0; i < state.seen_versions.size(); ++i)
+        state.seen_versions[i] =
+            values[node.loop == kNoId ? node.inputs[i].value : graph.loops[node.loop].reads[i]]
+                .version;
+    state.seen_params = state.params_version;
+    state.seen_extent = extent_version;
+}
+
+void Executor::State::runNode(NodeId id, uint iteration) {
+    const bool is_loop = graph.nodes[id].loop != kNoId;
+    const bool has_changed = hasChanged(id, graph.nodes[id].is_every_iteration);
+    if (!has_changed && !(is_loop && loops[graph.nodes[id].loop].is_cut))
+        return;
+    const Clock::time_point begin = Clock::now();
+    if (is_loop)
+        runLoop(id, has_changed);
+    else
+        runPass(id, iteration);
+    nodes[id].ms += msSince(begin);
+}
+
+void Executor::State::runPass(NodeId id, uint iteration) {
+    NodeState& state = nodes[id];
+    state.has_run = false;
+    markSeen(id);
+    for (std::size_t port = 0; port < state.outputs.size(); ++port)
+        prepareOutput(id, port);
+    if (state.chosen == host)
+        finishDevice(); // the host must see what the device wrote
+    execute(id, iteration);
+    is_device_pending |= state.may_use_device;
+    // On a software device nothing is won by waiting later, and time is told by pass.
+    if (device != nullptr && devices.raster->info().is_software)
+        finishDevice();
+    for (const BoundPort& output : state.outputs)
+        output.value->version = ++last_version;
+    state.has_run = true;
+    ++state.runs;
+}
+
+void Executor::State::execute(NodeId id, uint iteration) {
+    const PlannedNode& node = graph.nodes[id];
+    NodeState& state = nodes[id];
+    PassContext context;
+    context.pass_name = node.name;
+    context.type = node.type;
+    context.inputs = state.inputs;
+    context.outputs = state.outputs;
+    context.params = &node.params;
+    context.extent = extent;
+    context.seed = seed;
+    context.memory = memory;
+    context.host = host;
+    context.device = device;
+    context.chosen = state.chosen;
+    context.tracers = &tracers;
+    context.counters = &counters;
+    context.iteration = iteration;
+    is_device_pending |= state.may_use_device; // also if it throws half-way
+    const Scope scope(state.chosen == device ? device : nullptr, node.name);
+    state.pass->execute(context);
+}
+
+/// From the start, or on from where a limit cut it.
+void Executor::State::runLoop(NodeId id, bool is_new) {
+    const PlannedLoop& loop = graph.loops[graph.nodes[id].loop];
+    LoopState& state = loops[graph.nodes[id].loop];
+    NodeState& node = nodes[id];
+    node.has_run = false;
+    if (is_new) {
+        markSeen(id);
+        beginLoop(loop, state);
+    }
+    iterate(loop, state, graph.nodes[id].parent == kNoId);
+    values[loop.stats].version = ++last_version;
+    node.has_run = true;
+    ++node.runs;
+}
+
+void Executor::State::beginLoop(const PlannedLoop& loop, LoopState& state) {
+    state.curve.records.clear();
+    state.curve.stop.clear();
+    state.rays = state.pixels = 0;
+    state.ms = 0;
+    state.iteration = 0;
+    for (const PlannedCarry& carry : loop.carries) {
+        if (carry.is_culled)
+            continue;
+        if (carry.initial != kNoId) {
+            copyValue(values[carry.initial], carry.value);
+        } else {
+            // Lists begin empty; a record's size is known once `next` has it.
+            const Shape shape = graph.values[carry.value].type.shape;
+            place(carry.value, shape == Shape::kPlane    ? std::size_t{extent.x} * extent.y
+                               : shape == Shape::kRecord ? 1
+                                                         : 0);
+            fillZero(values[carry.value].buffer);
+        }
+        values[carry.value].version = ++last_version;
+    }
+}
+
+void Executor::State::iterate(const PlannedLoop& loop, LoopState& state, bool is_outermost) {
+    const Clock::time_point began = Clock::now();
+    const double ms_before = state.ms;
+    const uint iterations_before = state.iteration;
+    std::uint64_t rays_before = raysSoFar();
+    std::uint64_t pixels_before = counters.get(kPixels);
+    state.is_cut = false;
+    const char* stop = nullptr;
+    while (stop == nullptr) {
+        ++state.iteration;
+        const std::uint64_t pixels_so_far = state.pixels;
+        const std::uint64_t rays_so_far = state.rays;
+        if (counters.get(kWorstExpect) != 0)
+            counters.set(kWorstExpect, 0);
+        for (const NodeId id : loop.body)
+            runNode(id, state.iteration);
+        carryOver(loop, state);
+
+        state.rays += raysSoFar() - std::exchange(rays_before, raysSoFar());
+        state.pixels += counters.get(kPixels) - std::exchange(pixels_before, counters.get(kPixels));
+        state.ms = ms_before + msSince(began);
+        state.curve.records.push_back(
+            {.iteration = state.iteration,
+             .pixels = state.pixels,
+             .rays = state.rays,
+             .ms = state.ms,
+             .worst_expect =
+                 std::bit_cast<float>(static_cast<std::uint32_t>(counters.get(kWorstExpect)))});
+
+        stop = ruleThatEnds(loop, state);
+        // An iteration that found nothing to do is none.
+        const bool is_idle = state.pixels == pixels_so_far && state.rays == rays_so_far;
+        if (is_idle && stop != nullptr && std::string_view(stop) == "empty") {
+            state.curve.records.pop_back();
+            break;
+        }
+        if (!is_outermost)
+            continue;
+        const bool goes_on =
+            !options->on_iteration || options->on_iteration(state.curve.records.back());
+        if (stop == nullptr) {
+            stop = goes_on ? limitThatEnds(state.iteration - iterations_before) : "cancelled";
+            state.is_cut = stop != nullptr;
+        }
+    }
+    state.curve.stop = stop;
+}
+
+/// Hands every `next` value to its carried value, as if all at once.
+void Executor::State::carryOver(const PlannedLoop& loop, LoopState& state) {
+    for (std::size_t i = 0; i < loop.carries.size(); ++i)
+        if (!loop.carries[i].is_culled && loop.carries[i].next_by == NextBy::kStagedCopy)
+            stage(values[loop.carries[i].next], state.staged[i]);
+    for (std::size_t i = 0; i < loop.carries.size(); ++i) {
+        const PlannedCarry& carry = loop.carries[i];
+        if (carry.is_culled || carry.next_by == NextBy::kKept)
+            continue;
+        Value& value = values[carry.value];
+        const bool is_staged = carry.next_by == NextBy::kStagedCopy;
+        const Value& next = is_staged ? state.staged[i].value : values[carry.next];
+        if (carry.next_by == NextBy::kInPlace) {
+            value = next;
+            continue;
+        }
+        copyValue(next, carry.value);
+        value.version = next.version;
+    }
+}
+
+/// Copies a value out of the way of what is about to overwrite it.
+void Executor::State::stage(const Value& value, StagedValue& staged) {
+    if (staged.memory.bytes() < value.buffer.bytes) {
+        finishDevice();
+        staged.memory = memory->createBuffer(value.buffer.bytes, "scratch of a carried value");
+    }
+    staged.value = value;
+    staged.value.buffer = staged.memory.view().part(0, value.buffer.bytes);
+    copyContent(value, staged.value.buffer);
+}
+
+/// The first of the graph's own rules that holds; null if none does.
+const char* Executor::State::ruleThatEnds(const PlannedLoop& loop, const LoopState& state) const {
+    if (state.iteration % loop.check_every != 0)
+        return nullptr;
+    for (const StopRule& rule : loop.stop) {
+        switch (rule.kind) {
+        case StopRule::Kind::kEmpty:
+            if (values[rule.list].count == 0)
+                return "empty";
+            break;
+        case StopRule::Kind::kRays:
+            if (rule.limit > 0 && static_cast<double>(state.rays) >= rule.limit)
+                return "rays";
+            break;
+        case StopRule::Kind::kMs:
+            if (rule.limit > 0 && state.ms >= rule.limit)
+                return "ms";
+            break;
+        case StopRule::Kind::kIterations:
+            if (rule.limit > 0 && state.iteration >= rule.limit)
+                return "iterations";
+            break;
+        }
+    }
+    return nullptr;
+}
+
+/// Which limit of the whole run is reached.
+const char* Executor::State::limitThatEnds(uint iterations) const {
+    if (options->max_rays > 0 && raysSoFar() >= options->max_rays)
+        return "rays";
+    if (options->max_ms > 0 && msSince(run_began) >= options->max_ms)
+        return "ms";
+    if (options->max_iterations > 0 && iterations >= options->max_iterations)
+        return "iterations";
+    return nullptr;
+}
+
+std::uint64_t Executor::State::raysSoFar() const {
+    std::uint64_t sum = 0;
+    for (const Counter& counter : counters.all())
+        if (counter.name.starts_with(kRays))
+            sum += counter.value;
+    return sum;
+}
+
+} // namespace hone

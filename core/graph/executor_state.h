@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hone/core/graph/executor.h"
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hone {
+
+/// A pass or loop while its graph runs.
+struct NodeState {
+    std::unique_ptr<RenderPass> pass; ///< null: a loop, or culled
+    std::vector<BoundPort> inputs;
+    std::vector<BoundPort> outputs;
+    CommandEncoder* chosen = nullptr;
+    const char* where = "";
+    bool may_use_device = false;
+
+    // What it last ran with.
+    std::vector<std::uint64_t> seen_versions; ///< by edge; of a loop by PlannedLoop::reads
+    std::uint64_t seen_params = 0;
+    std::uint64_t seen_extent = 0;
+    bool has_run = false; ///< false also after an exception: its outputs are worth nothing
+
+    std::uint64_t params_version = 1; ///< of a loop: any parameter in it
+    std::uint64_t runs = 0;
+    double ms = 0;
+};
+
+/// A copy of a value, kept while its own memory is overwritten.
+struct StagedValue {
+    Value value;
+    Buffer memory;
+};
+
+struct LoopState {
+    Curve curve;
+    std::uint64_t rays = 0;
+    std::uint64_t pixels = 0;
+    double ms = 0;
+    uint iteration = 0;
+    bool is_cut = false; ///< ended by RunOptions, not by its own rules: the next run goes on
+    std::vector<StagedValue> staged; ///< by carry; for NextBy::kStagedCopy
+};
+
+/// All that an executor owns. Members that passes point at come first, so that passes go first.
+struct Executor::State {
+    using Clock = std::chrono::steady_clock;
+
+    State(CompiledGraph the_graph, const Catalog& the_catalog, Devices the_devices,
+          std::uint64_t the_seed);
+    ~State();
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+
+    void makePass(NodeId id);
+    void bindPorts(NodeId id);
+
+    void run(const RunOptions& options);
+    void prepareInputs();
+    bool hasChanged(NodeId id, bool force);
+    void markSeen(NodeId id);
+
+    void runNode(NodeId id, uint iteration);
+    void runPass(NodeId id, uint iteration);
+    void execute(NodeId id, uint iteration);
+    void finishDevice();
+
+    void runLoop(NodeId id, bool is_new);
+    void beginLoop(const PlannedLoop& loop, LoopState& state);
+    void iterate(const PlannedLoop& loop, LoopState& state, bool is_outermost);
+    void carryOver(const PlannedLoop& loop, LoopState& state);
+    [[nodiscard]] const char* ruleThatEnds(const PlannedLoop& loop, const LoopState& state) const;
+    [[nodiscard]] const char* limitThatEnds(uint iterations) const;
+    [[nodiscard]] std::uint64_t raysSoFar() const;
+
+    void prepareOutput(NodeId id, std::size_t port);
+    [[nodiscard]] std::size_t elementsOf(NodeId id, const OutPort& port) const;
+    void place(ValueId id, std::size_t elements);
+    void fillZero(BufferView target);
+    void copyContent(const Value& from, BufferView to);
+    void copyValue(const Value& from, ValueId to);
+    void stage(const Value& value, StagedValue& staged);
+
+    CompiledGraph graph;
+    Catalog catalog;
+    Devices devices;
+    std::uint64_t seed;
+    Device* memory; ///< where buffers live
+    CommandEncoder* host;
+    CommandEncoder* device;  ///< null without a raster device
+    CommandEncoder* kernels; ///< where kernels run that may run anywhere
+    bool is_device_pending = false;
+
+    const Scene* scene = nullptr;
+    std::uint64_t scene_version = 0; ///< of scene_buffers
+    std::optional<SceneBuffers> scene_buffers;
+    std::optional<Camera> camera;
+    uvec2 extent{0, 0};
+    std::uint64_t extent_version = 0;
+
+    std::uint64_t last_version = 0;
+    std::vector<Value> values;    ///< by ValueId
+    std::vector<Buffer> memories; ///< by CompiledGraph::memories
+    std::vector<LoopState> loops;
+    Counters counters;
+    Tracers tracers;
+    std::vector<NodeState> nodes; ///< by NodeId
+
+    const RunOptions* options = nullptr; ///< of the run that goes on
+    Clock::time_point run_began;
+};
+
+} // namespace hone
