@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// tinygltf 2.7 writes files in code that TINYGLTF_NO_FS does not switch off, without this include.
+#include <fstream>
+
+#define TINYGLTF_IMPLEMENTATION
+#include "hone/core/scene/gltf_model.h"
+
+#include "hone/core/error.h"
+
+namespace hone {
+
+GltfModel parseGltfModel(const std::string& json) {
+    tinygltf::TinyGLTF parser;
+    GltfModel model;
+    std::string problems;
+    std::string warnings;
+    bool parsed = false;
+    try {
+        parsed = parser.LoadASCIIFromString(&model, &problems, &warnings, json.c_str(),
+                                            static_cast<unsigned>(json.size()), "",
+                                            tinygltf::REQUIRE_VERSION);
+    } catch (const std::exception& error) {
+        problems += error.what();
+    }
+    // It drops what it cannot parse and goes on, so its words count more than its answer.
+    if (!parsed || !problems.empty()) {
+        while (problems.ends_with('\n'))
+            problems.pop_back();
+        throw InputError(problems.empty() ? "not glTF" : problems);
+    }
+    return model;
+}
+
+} // namespace hone

@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hone/core/scene/scene_file.h"
+
+#include "hone/core/error.h"
+#include "hone/core/graph/diagnostics.h"
+#include "hone/core/image/image.h"
+#include "hone/core/scene/builtin_scenes.h"
+#include "hone/core/scene/gltf.h"
+#include "hone/core/scene/model_folder.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace hone {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr float kMost = 1e30f; ///< of what is unbounded but must stay finite
+
+/// An object of the file. Knows its place for messages, and refuses keys that nobody reads.
+class Object {
+public:
+    Object(const std::string& file, std::string pointer, const Json& json,
+           const std::vector<std::string>& keys)
+        : file_(file), pointer_(std::move(pointer)), json_(json) {
+        if (!json.is_object())
+            fail("", "expected an object");
+        for (const auto& item : json.items())
+            if (std::ranges::find(keys, item.key()) == keys.end())
+                failName("/" + printable(item.key()), "unknown key", item.key(), keys);
+    }
+
+    [[noreturn]] void fail(const std::string& place, const std::string& what) const {
+        const std::string where = pointer_ + place;
+        throw SceneError(file_ + (where.empty() ? "" : " " + where) + ": " + what);
+    }
+
+    /// Fails for a name that is none of `candidates`, with the one that may be meant, or all.
+    [[noreturn]] void failName(const std::string& place, const std::string& what,
+                               std::string_view name,
+                               const std::vector<std::string>& candidates) const {
+        const std::string near = nearest(name, candidates);
+        std::string all;
+        for (std::size_t i = 0; i < std::min<std::size_t>(candidates.size(), 12); ++i)
+            all += (i == 0 ? "" : ", ") + candidates[i];
+        fail(place,
+             what + " \"" + printable(name) + "\". " +
+                 (!near.empty() ? "Did you mean \"" + near + "\"?"
+                  : all.empty() ? "There are none."
+                                : "There are: " + all + (candidates.size() > 12 ? ", ..." : "")));
+    }
+
+    [[nodiscard]] bool has(const char* key) const { return json_.contains(key); }
+
+    [[nodiscard]] std::string text(const char* key) const {
+        const Json& value = require(key);
+        if (!value.is_string())
+            fail(place(key), "expected a string");
+        return value.get<std::string>();
+    }
+
+    [[nodiscard]] bool boolean(const char* key) const {
+        const Json& value = require(key);
+        if (!value.is_boolean())
+            fail(place(key), "expected true or false");
+        return value.get<bool>();
+    }
+
+    [[nodiscard]] float number(const char* key, float low, float high) const {
+        return toNumber(require(key), place(key), low, high);
+    }
+    [[nodiscard]] float number(const char* key, float low, float high, float fallback) const {
+        return has(key) ? number(key, low, high) : fallback;
+    }
+
+    [[nodiscard]] vec3 vector(const char* key) const {
+        return toVector(require(key), place(key), -kMost, kMost, "[x, y, z]");
+    }
+
+    /// One number for grey, or [r, g, b].
+    [[nodiscard]] vec3 color(const char* key, float high) const {
+        const Json& value = require(key);
+        if (value.is_number())
+            return vec3(toNumber(value, place(key), 0.0f, high));
+        return toVector(value, place(key), 0.0f, high, "a number or [r, g, b]");
+    }
+
+    /// Calls read(element, its pointer) for each element of an array that may be absent.
+    template <class Read> void each(const char* key, Read read) const {
+        if (!has(key))
+            return;
+        const Json& array = json_[key];
+        if (!array.is_array())
+            fail(place(key), "expected an array");
+        for (std::size_t i = 0; i < array.size(); ++i)
+            read(array[i], pointer_ + place(key) + "/" + std::to_string(i));
+    }
+
+    [[nodiscard]] const Json& require(const char* key) const {
+        if (!has(key))
+            fail("", std::string("has no \"") + key + "\"");
+        return json_[key];
+    }
+
+    [[nodiscard]] const std::string& pointer() const { return pointer_; }
+    [[nodiscard]] const std::string& file() const { return file_; }
+
+private:
+    static std::string place(const char* key) { return std::string("/") + key; }
+
+    [[nodiscard]] float toNumber(const Json& value, const std::string& place, float low,
+                                 float high) const {
+        const double number = value.is_number() ? value.get<double>() : 0.0;
+        if (!value.is_number() || !(number >= low && number <= high)) {
+            const std::string range =
+                high < kMost   ? "a number from " + Json(low).dump() + " to " + Json(high).dump()
+                : low > -kMost ? "a number, " + Json(low).dump() + " or more"
+                               : "a number";
+            fail(place, printable(value.dump()) + "; expected " + range);
+        }
+        return static_cast<float>(number);
+    }
+
+    [[nodiscard]] vec3 toVector(const Json& value, const std::string& place, float low, float high,
+                                const char* expected) const {
+        if (!value.is_array() || value.size() != 3)
+            fail(place, printable(value.dump()) + "; expected " + expected);
+        vec3 vector(0.0f);
+        for (int i = 0; i < 3; ++i)
+            vector[i] = toNumber(value[static_cast<std::size_t>(i)],
+                                 place + "/" + std::to_string(i), low, high);
+        return vector;
+    }
+
+    const std::string& file_;
+    std::string pointer_;
+    const Json& json_;
+};
+
+/// "line:column", both from 1, of a byte counted from 1 as nlohmann does.
+std::string lineAndColumn(std::string_view text, std::size_t byte) {
+    const std::string_view before = text.substr(0, byte == 0 ? 0 : std::min(byte - 1, text.size()));
+    const auto line = 1 + std::ranges::count(before, '\n');
+    const std::size_t newline = before.rfind('\n');
+    const std::size_t column =
+        newline == std::string_view::npos ? before.size() + 1 : before.size() - newline;
+    return std::to_string(line) + ":" + std::to_string(column);
+}
+
+/// Parses with comments; refuses keys written twice, of which a reader would silently drop one.
+Json parse(const std::string& file, std::string_view text) {
+    std::vector<std::set<std::string>> open;
+    auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
+        if (depth > 64)
+            throw SceneError(file + ": JSON nested deeper than 64 levels");
+        if (event == Json::parse_event_t::object_start)
+            open.emplace_back();
+        else if (event == Json::parse_event_t::object_end)
+            open.pop_back();
+        else if (event == Json::parse_event_t::key &&
+                 !open.back().insert(parsed.get<std::string>()).second)
+            throw SceneError(file + ": the key \"" + printable(parsed.get<std::string>()) +
+                             "\" appears twice in one object");
+        return true;
+    };
+    try {
+        return Json::parse(text, watch, true, true);
+    } catch (const Json::parse_error& error) {
+        std::string what = error.what();
+        // nlohmann's own prefix repeats the place: "[json...] parse error at line 1, column 2: ".
+        if (const std::size_t colon = what.find(": "); colon != std::string::npos)
+            what.erase(0, colon + 2);
+        throw SceneError(file + ":" + lineAndColumn(text, error.byte) + ": " + printable(what));
+    } catch (const Json::exception& error) {
+        throw SceneError(file + ": " + printable(error.what()));
+    }
+}
+
+/// Runs `check`, which throws SceneError, and puts the place before its words.
+template <class Check> void checkAt(const Object& object, Check check) {
+    try {
+        check();
+    } catch (const SceneError& error) {
+        object.fail("", error.what());
+    }
+}
+
+CameraDesc readCamera(const Object& object) {
+    CameraDesc camera;
+    camera.name = printable(object.text("name"));
+    camera.position = object.vector("position");
+    camera.target = object.vector("target");
+    if (object.has("up"))
+        camera.up = object.vector("up");
+    camera.fov_y_degrees = object.number("fov_y", 0.0f, 180.0f, camera.fov_y_degrees);
+    camera.near = object.number("near", 0.0f, kMost, camera.near);
+    checkAt(object, [&] { (void)makeCamera(camera); });
+    return camera;
+}
+
+vec3 readDirection(const Object& object, const char* key) {
+    const vec3 direction = object.vector(key);
+    const float length = glm::length(direction);
+    if (!(length > 0.0f) || !std::isfinite(length))
+        object.fail(std::string("/") + key, "a direction of no length");
+    return direction / length;
+}
+
+Light readRectangle(const Object& object) {
+    Light light{};
+    light.kind = kLightRectangle;
+    light.position = object.vector("center");
+    light.half_u = 0.5f * object.vector("edge_u");
+    light.half_v = 0.5f * object.vector("edge_v");
+    light.intensity = object.color("radiance", kMost);
+    const vec3 normal = glm::cross(light.half_u, light.half_v);
+    const float length = glm::length(normal);
+    if (!(length > 0.0f) || !std::isfinite(length))
+        object.fail("/edge_v", "the edges span no area: edge_u and edge_v must not be parallel");
+    light.direction = normal / length;
+    return light;
+}
+
+Light readLight(const std::string& file, const Json& json, const std::string& pointer) {
+    // The type decides which keys there may be, so it is read first.
+    static const std::vector<std::string> kTypes{"point", "rectangle", "directional", "spot"};
+    if (!json.is_object() || !json.contains("type"))
+        throw SceneError(file + " " + pointer + ": expected an object with a \"type\"");
+    const Object untyped(file, pointer, Json::object(), {});
+    if (!json["type"].is_string())
+        untyped.fail("/type", "expected a string");
+    const std::string type = json["type"].get<std::string>();
+
+    Light light{};
+    if (type == "rectangle")
+        return readRectangle(
+            Object(file, pointer, json, {"type", "center", "edge_u", "edge_v", "radiance"}));
+    if (type == "directional") {
+        const Object object(file, pointer, json, {"type", "direction", "irradiance"});
+        light.kind = kLightDirectional;
+        light.direction = readDirection(object, "direction");
+        light.intensity = object.color("irradiance", kMost);
+        return light;
+    }
+    if (type == "point") {
+        const Object object(file, pointer, json, {"type", "position", "intensity", "range"});
+        light.kind = kLightPoint;
+        light.position = object.vector("position");
+        light.direction = vec3(0, -1, 0);
+        light.intensity = object.color("intensity", kMost);
+        light.range = object.number("range", 0.0f, kMost, 0.0f);
+        return light;
+    }
+    if (type == "spot") {
+        const Object object(
+            file, pointer, json,
+            {"type", "position", "direction", "intensity", "inner", "outer", "range"});
+        light.kind = kLightSpot;
+        light.position = object.vector("position");
+        light.direction = readDirection(object, "direction");
+        light.intensity = object.color("intensity", kMost);
+        const float outer = object.number("outer", 0.0f, 90.0f, 45.0f);
+        const float inner = object.number("inner", 0.0f, outer, 0.0f);
+        light.cos_outer = std::cos(glm::radians(outer));
+        light.cos_inner = std::cos(glm::radians(inner));
+        light.range = object.number("range", 0.0f, kMost, 0.0f);
+        return light;
+    }
+    untyped.failName("/type", "unknown type of light", type, kTypes);
+}
+
+Probe readProbe(const Object& object, const Scene& scene) {
+    Probe probe{object.vector("position"), kNone};
+    if (object.has("object")) {
+        const std::string wanted = object.text("object");
+        const auto found = std::ranges::find(scene.instance_names, wanted);
+        if (found == scene.instance_names.end())
+            object.failName("/object", "no instance is called", wanted, scene.instance_names);
+        probe.object = static_cast<uint>(found - scene.instance_names.begin());
+    }
+    return probe;
+}
+
+void changeMaterial(const Object& object, Material& material) {
+    if (object.has("base_color"))
+        material.base_color = object.color("base_color", 1.0f);
+    if (object.has("emission"))
+        material.emission = object.color("emission", kMost);
+    if (object.has("mirror")) {
+        material.f0 = object.color("mirror", 1.0f);
+        material.flags &= ~kMaterialMirror;
+        if (material.f0 != vec3(0.0f))
+            material.flags |= kMaterialMirror;
+    }
+    if (object.has("two_sided")) {
+        material.flags &= ~kMaterialTwoSided;
+        if (object.boolean("two_sided"))
+            material.flags |= kMaterialTwoSided;
+    }
+}
+
+void changeMaterials(const Object& root, Scene& scene) {
+    if (!root.has("materials"))
+        return;
+    const Json& changes = root.require("materials");
+    if (!changes.is_object())
+        root.fail("/materials", "expected an object of material names");
+    for (const auto& item : changes.items()) {
+        const std::string pointer = "/materials/" + printable(item.key());
+        const Object object(root.file(), pointer, item.value(),
+                            {"base_color", "emission", "mirror", "two_sided"});
+        bool is_found = false;
+        for (std::size_t i = 0; i < scene.materials.size(); ++i)
+            if (scene.material_names[i] == item.key()) {
+                changeMaterial(object, scene.materials[i]);
+                is_found = true;
+            }
+        if (!is_found)
+            object.failName("", "no material is called", item.key(), scene.material_names);
+    }
+}
+
+void readModel(const Object& root, Scene& scene) {
+    if (!root.has("model"))
+        return;
+    constexpr std::string_view kBuiltin = "builtin:";
+    const std::string model = root.text("model");
+    if (!model.starts_with(kBuiltin)) {
+        const std::filesystem::path folder = std::filesystem::path(root.file()).parent_path();
+        readGltf((folder / model).lexically_normal().string(), scene);
+        return;
+    }
+    const std::string name = scene.name;
+    scene = makeBuiltinScene(std::string_view(model).substr(kBuiltin.size()));
+    scene.name = name;
+    scene.version = 0; // to be finished again, with what this file adds
+    if (root.has("probes"))
+        scene.probes.clear();
+}
+
+} // namespace
+
+bool readSceneFile(const std::string& name, Scene& scene) {
+    std::vector<std::byte> bytes;
+    try {
+        bytes = readFile(name);
+    } catch (const InputError& error) {
+        throw SceneError(error.what());
+    }
+    const Json json = parse(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    const Object root(
+        name, "", json,
+        {"$schema", "doc", "model", "cameras", "lights", "environment", "probes", "materials"});
+    readModel(root, scene);
+
+    std::vector<CameraDesc> cameras;
+    root.each("cameras", [&](const Json& element, const std::string& pointer) {
+        cameras.push_back(readCamera(
+            Object(name, pointer, element, {"name", "position", "target", "up", "fov_y", "near"})));
+    });
+    scene.cameras.insert(scene.cameras.begin(), cameras.begin(), cameras.end());
+    root.each("lights", [&](const Json& element, const std::string& pointer) {
+        scene.lights.push_back(readLight(name, element, pointer));
+    });
+    root.each("probes", [&](const Json& element, const std::string& pointer) {
+        scene.probes.push_back(
+            readProbe(Object(name, pointer, element, {"position", "object"}), scene));
+    });
+    if (root.has("environment")) {
+        const Object object(name, "/environment", root.require("environment"),
+                            {"zenith", "horizon", "ground", "ambient"});
+        auto color = [&](const char* key) {
+            return object.has(key) ? object.color(key, kMost) : vec3(0.0f);
+        };
+        scene.environment = {color("zenith"), color("horizon"), color("ground"), color("ambient")};
+    }
+    changeMaterials(root, scene);
+    return root.has("lights") || root.has("environment");
+}
+
+} // namespace hone

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hone/tests/core/scene/small_gltf.h"
+
+#include <cmath>
+
+namespace hone {
+namespace {
+
+/// The small square as model/square.gltf, with a mirror material and one node, and a scene file.
+class SceneFile : public testing::Test {
+protected:
+    SceneFile() {
+        folder.write("model/square.bin", model.binary);
+        folder.write("model/square.gltf", model.json.dump());
+    }
+    Scene load(const std::string& text) const {
+        return loadScene(folder.write("scenes/test.scene.json", text));
+    }
+    std::string error(const std::string& text) const {
+        return loadError(folder.write("scenes/test.scene.json", text));
+    }
+    void expectError(const std::string& text, const std::string& words) const {
+        const std::string what = error(text);
+        EXPECT_NE(what.find("test.scene.json"), std::string::npos) << what;
+        EXPECT_NE(what.find(words), std::string::npos) << what << "\nlacks: " << words;
+    }
+
+    SmallGltf model;
+    ScratchFolder folder;
+};
+
+TEST_F(SceneFile, NamesAModelOutsideItsFolderAndMayHaveComments) {
+    const Scene scene = load("// The user's own file may point anywhere.\n"
+                             "{ \"model\": \"../model/square.gltf\" } // end");
+    EXPECT_EQ(scene.triangles.size(), 2u);
+    EXPECT_TRUE(scene.name.ends_with("test.scene.json"));
+}
+
+TEST_F(SceneFile, CamerasComeBeforeTheModelsAndHaveDefaults) {
+    const Scene scene = load(R"({"cameras": [
+        {"name": "a", "position": [1, 2, 3], "target": [0, 0, 0]},
+        {"name": "b", "position": [0, 0, 5], "target": [0, 0, 0], "up": [1, 0, 0], "fov_y": 30,
+         "near": 0.5}]})");
+    EXPECT_EQ(scene.camera("").name, "a");
+    EXPECT_EQ(scene.camera("a").up, vec3(0, 1, 0));
+    EXPECT_EQ(scene.camera("a").fov_y_degrees, 60.0f);
+    EXPECT_EQ(scene.camera("b").up, vec3(1, 0, 0));
+    EXPECT_EQ(scene.camera("b").fov_y_degrees, 30.0f);
+    EXPECT_EQ(scene.camera("b").near, 0.5f);
+}
+
+TEST_F(SceneFile, ReadsAllKindsOfLight) {
+    const Scene scene = load(R"({"lights": [
+        {"type": "point", "position": [1, 2, 3], "intensity": 5, "range": 9},
+        {"type": "spot", "position": [0, 1, 0], "direction": [0, -2, 0], "intensity": [1, 2, 3],
+         "inner": 0, "outer": 60},
+        {"type": "directional", "direction": [3, 0, 4], "irradiance": 2},
+        {"type": "rectangle", "center": [0, 4, 0], "edge_u": [2, 0, 0], "edge_v": [0, 0, 6],
+         "radiance": [10, 9, 8]}]})");
+    ASSERT_EQ(scene.lights.size(), 4u);
+    EXPECT_EQ(scene.lights[0].kind, kLightPoint);
+    EXPECT_EQ(scene.lights[0].intensity, vec3(5));
+    EXPECT_EQ(scene.lights[0].range, 9.0f);
+    EXPECT_EQ(scene.lights[1].kind, kLightSpot);
+    EXPECT_EQ(scene.lights[1].direction, vec3(0, -1, 0));
+    EXPECT_NEAR(scene.lights[1].cos_outer, 0.5f, 1e-6f);
+    EXPECT_EQ(scene.lights[1].cos_inner, 1.0f);
+    EXPECT_EQ(scene.lights[2].kind, kLightDirectional);
+    EXPECT_NEAR(scene.lights[2].direction.x, 0.6f, 1e-6f);
+    EXPECT_EQ(scene.lights[3].kind, kLightRectangle);
+    EXPECT_EQ(scene.lights[3].half_u, vec3(1, 0, 0));
+    EXPECT_EQ(scene.lights[3].half_v, vec3(0, 0, 3));
+    EXPECT_EQ(scene.lights[3].direction, vec3(0, -1, 0)); // x cross z
+    EXPECT_EQ(scene.lights[3].intensity, vec3(10, 9, 8));
+}
+
+TEST_F(SceneFile, ReadsTheEnvironmentAndThenAddsNoSun) {
+    const Scene scene =
+        load(R"({"environment": {"zenith": [0, 0, 1], "horizon": 0.5, "ambient": 0.25}})");
+    EXPECT_EQ(scene.environment.zenith, vec3(0, 0, 1));
+    EXPECT_EQ(scene.environment.horizon, vec3(0.5f));
+    EXPECT_EQ(scene.environment.ground, vec3(0));
+    EXPECT_EQ(scene.environment.ambient, vec3(0.25f));
+    EXPECT_TRUE(scene.lights.empty());
+}
+
+TEST_F(SceneFile, ChangesMaterialsAndGivesMirrorsTheirProbe) {
+    const Scene scene = load(R"({"model": "../model/square.gltf",
+        "materials": {"paint": {"mirror": 0.9, "base_color": 0, "emission": [1, 2, 3],
+                                "two_sided": true}},
+        "probes": [{"position": [7, 0, 0]}, {"position": [9, 8, 7], "object": "square"}]})");
+    EXPECT_EQ(scene.materials[0].flags, kMaterialMirror | kMaterialTwoSided);
+    EXPECT_EQ(scene.materials[0].f0, vec3(0.9f));
+    EXPECT_EQ(scene.materials[0].base_color, vec3(0));
+    EXPECT_EQ(scene.materials[0].emission, vec3(1, 2, 3));
+    ASSERT_EQ(scene.probes.size(), 2u);
+    EXPECT_EQ(scene.probes[0].object, kNone);
+    EXPECT_EQ(scene.instances[0].probe, 1u);
+}
+
+TEST_F(SceneFile, MirrorZeroTakesAMirrorAway) {
+    model.json["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = 0;
+    folder.write("model/square.gltf", model.json.dump());
+    const Scene scene =
+        load(R"({"model": "../model/square.gltf", "materials": {"paint": {"mirror": 0}}})");
+    EXPECT_EQ(scene.materials[0].flags, 0u);
+    EXPECT_EQ(scene.instances[0].probe, kNone);
+}
+
+TEST_F(SceneFile, BadJsonIsNamedWithLineAndColumn) {
+    expectError("{\n  \"cameras\": [,]\n}", "test.scene.json:2:15: ");
+    expectError("", "test.scene.json:1:1: ");
+}
+
+TEST_F(SceneFile, UnknownKeysAreRefusedWithTheNearest) {
+    expectError(R"({"camera": []})", "/camera: unknown key \"camera\". Did you mean \"cameras\"?");
+    expectError(
+        R"({"lights": [{"type": "point", "position": [0,0,0], "intensity": 1, "rang": 2}]})",
+        "/lights/0/rang: unknown key \"rang\". Did you mean \"range\"?");
+    expectError(R"({"lights": [{"type": "rectangle", "intensity": 1}]})", "/lights/0/intensity");
+}
+
+TEST_F(SceneFile, WrongTypesAndRangesAreNamedWithTheirPointer) {
+    expectError("[]", ": expected an object");
+    expectError(R"({"model": 3})", "/model: expected a string");
+    expectError(R"({"cameras": {}})", "/cameras: expected an array");
+    expectError(R"({"cameras": [{"name": "a", "target": [0,0,0]}]})",
+                "/cameras/0: has no \"position\"");
+    expectError(R"({"cameras": [{"name": "a", "position": [0,0], "target": [0,0,0]}]})",
+                "/cameras/0/position: [0,0]; expected [x, y, z]");
+    expectError(R"({"cameras": [{"name": "a", "position": [0,0,"z"], "target": [0,0,0]}]})",
+                "/cameras/0/position/2: \"z\"; expected a number");
+    expectError(R"({"cameras": [{"name": "a", "position": [1,1,1], "target": [1,1,1]}]})",
+                "/cameras/0: camera \"a\": position and target");
+    expectError(
+        R"({"cameras": [{"name": "a", "position": [1,1,1], "target": [0,0,0], "fov_y": 200}]})",
+        "/cameras/0/fov_y: 200; expected a number from 0.0 to 180.0");
+    expectError(R"({"lights": [{"type": "sphere"}]})", "/lights/0/type: unknown type of light");
+    expectError(R"({"lights": [{}]})", "/lights/0: expected an object with a \"type\"");
+    expectError(R"({"lights": [{"type": "directional", "direction": [0,0,0], "irradiance": 1}]})",
+                "/lights/0/direction: a direction of no length");
+    expectError(R"({"lights": [{"type": "rectangle", "center": [0,0,0], "edge_u": [1,0,0],
+                    "edge_v": [2,0,0], "radiance": 1}]})",
+                "/lights/0/edge_v: the edges span no area");
+    expectError(R"({"lights": [{"type": "point", "position": [0,0,0], "intensity": -1}]})",
+                "/lights/0/intensity: -1; expected a number, 0.0 or more");
+    expectError(R"({"environment": {"ambient": "blue"}})",
+                "/environment/ambient: \"blue\"; expected a number or [r, g, b]");
+    expectError(R"({"materials": {"paint": {}}})", "no material is called \"paint\"");
+}
+
+TEST_F(SceneFile, UnknownNamesOfTheModelAreNamed) {
+    const std::string with = R"({"model": "../model/square.gltf", )";
+    expectError(with + R"("materials": {"pant": {}}})",
+                "/materials/pant: no material is called \"pant\". Did you mean \"paint\"?");
+    expectError(with + R"("probes": [{"position": [0,0,0], "object": "sqare"}]})",
+                "/probes/0/object: no instance is called \"sqare\". Did you mean \"square\"?");
+    expectError(with + R"("materials": {"paint": {"mirror": 2}}})",
+                "/materials/paint/mirror: 2; expected a number from 0.0 to 1.0");
+}
+
+TEST_F(SceneFile, KeysWrittenTwiceAreRefused) {
+    expectError(R"({"environment": {"ambient": 1, "ambient": 2}})", "\"ambient\" appears twice");
+}
+
+TEST_F(SceneFile, AMissingModelIsNamed) {
+    const std::string what = error(R"({"model": "gone.gltf"})");
+    EXPECT_NE(what.find("gone.gltf: cannot be read"), std::string::npos) << what;
+    EXPECT_NE(loadError("nowhere.scene.json").find("nowhere.scene.json: cannot be read"),
+              std::string::npos);
+}
+
+} // namespace
+} // namespace hone
