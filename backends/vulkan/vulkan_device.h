@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hone/core/device/device.h"
+
+#include <functional>
+
+namespace hone {
+
+struct VulkanOptions {
+    /// Part of a device's name, or its index as a number; "" takes a discrete GPU before an
+    /// integrated one before software.
+    std::string device;
+    /// Turns on the Khronos validation layer (core and synchronisation). Throws DeviceError if it
+    /// is not installed.
+    bool validation = false;
+    /// Called for each validation message; a message is never swallowed: without a callback it is
+    /// logged as a warning.
+    std::function<void(std::string_view message)> on_message;
+};
+
+/// A headless Vulkan 1.3 device with a graphics queue. Throws DeviceError that says what was found
+/// and what is missing.
+[[nodiscard]] std::unique_ptr<Device> makeVulkanDevice(const VulkanOptions& options);
+
+/// What hone doctor prints about one physical device.
+struct VulkanDeviceReport {
+    std::string name, driver, api_version;
+    bool usable = false;
+    std::string missing; ///< why not, "" if usable
+    bool ray_query = false;
+    bool ray_pipeline = false;
+};
+/// All devices in the loader's order, usable or not. Throws DeviceError if there is no driver.
+[[nodiscard]] std::vector<VulkanDeviceReport> listVulkanDevices();
+
+} // namespace hone

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hone/backends/vulkan/vulkan_context.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace hone {
+
+/// A stretch of device memory, always mapped if its type is host-visible.
+struct MemoryRange {
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    VkDeviceSize offset = 0;
+    VkDeviceSize bytes = 0;    ///< at least what was asked
+    std::byte* data = nullptr; ///< the host's view, already advanced by offset
+};
+
+/// Memory of buffers: blocks of 64 MiB, mapped for their whole life, first fit; what is larger than
+/// a quarter of a block gets an allocation of its own. Freed ranges are joined and used again.
+class VulkanMemory {
+public:
+    static constexpr VkDeviceSize kBlockBytes = VkDeviceSize{64} << 20;
+    static constexpr VkDeviceSize kLargestShared = kBlockBytes / 4;
+
+    explicit VulkanMemory(const VulkanContext& context) : context_(&context) {}
+
+    /// Mapped, coherent memory for a buffer; its content is undefined.
+    /// Throws OutOfMemory naming `about` and how much is in use.
+    [[nodiscard]] MemoryRange allocate(const VkMemoryRequirements& needs, const char* about);
+    void free(const MemoryRange& range);
+
+    /// Memory for one image, not mapped.
+    [[nodiscard]] OwnedMemory allocateForImage(const VkMemoryRequirements& needs, VkImage image,
+                                               const char* about);
+
+    [[nodiscard]] VkDeviceSize bytesInUse() const { return bytes_in_use_; }
+
+private:
+    struct Gap {
+        VkDeviceSize offset = 0;
+        VkDeviceSize bytes = 0;
+    };
+    struct Block {
+        OwnedMemory memory;
+        std::byte* data = nullptr;
+        VkDeviceSize bytes = 0;
+        std::uint32_t type = 0;
+        std::vector<Gap> gaps; ///< by offset, never adjacent
+    };
+
+    Block& addBlock(VkDeviceSize bytes, std::uint32_t type, const char* about);
+    /// First fit; false if no gap of the block is large enough.
+    static bool take(Block& block, VkDeviceSize alignment, MemoryRange& range);
+
+    const VulkanContext* context_;
+    std::vector<std::unique_ptr<Block>> blocks_;
+    VkDeviceSize bytes_in_use_ = 0;
+};
+
+} // namespace hone
