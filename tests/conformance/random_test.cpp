@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hone/backends/brute/brute_backend.h"
+#include "hone/tests/conformance/conformance.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace hone::test {
+namespace {
+
+/// Numbers in [-1,1] and what is made of them, drawn in the order that the code says.
+class Random {
+public:
+    explicit Random(uint seed) : engine_(seed) {}
+    float number() { return distribution_(engine_); }
+    vec3 vector() {
+        const float x = number();
+        const float y = number();
+        return {x, y, number()};
+    }
+
+private:
+    std::mt19937 engine_;
+    std::uniform_real_distribution<float> distribution_{-1, 1};
+};
+
+/// Five meshes of 20 triangles, each placed five times by any affine map: single-sided, two-sided
+/// and masked materials.
+Scene randomScene(uint seed) {
+    Random random(seed);
+    SceneBuilder builder;
+    const uint texels[] = {0xff'00'00'00u, 0x00'00'00'00u, 0x40'00'00'00u, 0xc0'00'00'00u};
+    const uint texture = builder.addTexture(2, 2, texels, 0);
+    for (uint flags :
+         {0u, kMaterialTwoSided, kMaterialMasked, kMaterialMasked | kMaterialTwoSided, 0u}) {
+        Material material = plainMaterial(flags);
+        material.base_color_texture = texture;
+        std::vector<vec3> positions;
+        std::vector<vec2> uvs;
+        std::vector<uvec3> triangles;
+        for (uint i = 0; i < 20; ++i) {
+            const vec3 center = random.vector();
+            for (int corner = 0; corner < 3; ++corner) {
+                positions.push_back(center + 0.5f * random.vector());
+                const float u = 3 * random.number();
+                uvs.emplace_back(u, 3 * random.number());
+            }
+            triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+        }
+        const uint mesh = builder.addMesh(positions, triangles, builder.addMaterial(material), uvs);
+        for (int i = 0; i < 5; ++i) {
+            mat4 place(1);
+            for (int column = 0; column < 3; ++column)
+                place[column] += vec4(0.6f * random.vector(), 0);
+            place[0] *= i % 2 == 0 ? 1.0f : -1.0f; // every second one mirrored, roughly
+            place[3] = vec4(2.0f * random.vector(), 1);
+            builder.addInstance(mesh, place);
+        }
+    }
+    return builder.finish();
+}
+
+/// Where `ray` meets the plane of the triangle that `hit` names, in double precision.
+double distanceTo(const Scene& scene, const Ray& ray, Hit hit) {
+    using glm::dvec3;
+    if (hit == kMiss)
+        return INFINITY;
+    const Instance& instance = scene.instances[hit.instance];
+    const uvec3 corners =
+        scene.triangles[scene.meshes[instance.mesh].first_triangle + hit.primitive];
+    const auto place = [&](uint v) {
+        return dvec3(instance.to_world * vec4(scene.positions[v], 1));
+    };
+    const dvec3 a = place(corners.x);
+    const dvec3 normal = glm::cross(place(corners.y) - a, place(corners.z) - a);
+    return glm::dot(a - dvec3(ray.origin), normal) / glm::dot(dvec3(ray.direction), normal);
+}
+
+// Two tracers may round apart which of two hits is nearer that lie within 1e-5 of the distance;
+// nothing else is forgiven.
+TEST_P(TracerConformance, AgreesWithTheBruteLoopOnRandomScenes) {
+    for (const uint seed : {1u, 2u}) {
+        build(randomScene(seed));
+        Random random(seed + 100);
+        std::vector<Ray> rays(20'000);
+        for (Ray& ray : rays) {
+            const vec3 origin = 3.0f * random.vector();
+            const float tmin = 0.5f * (1 + random.number());
+            const vec3 direction = 2.0f * random.vector() - origin;
+            ray = {origin, tmin, direction, random.number() > 0 ? 1e30f : 1.0f};
+        }
+        const auto brute = makeBruteBackend();
+        brute->build(scene_);
+        std::vector<Hit> expected(rays.size());
+        std::vector<uint> expected_occluded(rays.size());
+        brute->closest(rays, expected, Coherence::kIncoherent, {});
+        brute->occluded(rays, expected_occluded, Coherence::kIncoherent, {});
+        EXPECT_GT(std::ranges::count(expected, kMiss), 1000);
+        EXPECT_LT(std::ranges::count(expected, kMiss), 19'000);
+
+        for (const Mode& mode : kModes) {
+            const std::vector<Hit> hits = closestOf(rays, mode);
+            EXPECT_EQ(occludedOf(rays, mode), expected_occluded);
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                if (hits[i] == expected[i])
+                    continue;
+                const double t = distanceTo(scene_, rays[i], expected[i]);
+                EXPECT_NEAR(distanceTo(scene_, rays[i], hits[i]), t, 1e-5 * t)
+                    << "ray " << i << " of seed " << seed;
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace hone::test
