@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hone/passes/passes.h"
+#include "hone/tests/support/run_pass.h"
+#include "hone/tests/support/scene_builder.h"
+#include "hone/tests/support/vulkan_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace hone {
+namespace {
+
+constexpr uint kSize = 64;
+constexpr uint kHeader = 8;
+
+/// A horizontal square of half the edge `half` at height y, facing up.
+void addFloor(test::SceneBuilder& builder, uint material, float y, float half) {
+    const vec3 positions[] = {
+        {-half, y, half}, {half, y, half}, {half, y, -half}, {-half, y, -half}};
+    const uvec3 triangles[] = {{0, 1, 2}, {0, 2, 3}};
+    const vec2 uvs[] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
+    builder.add(positions, triangles, material, uvs);
+}
+
+Light pointLight(vec3 position) {
+    Light light{};
+    light.kind = kLightPoint;
+    light.position = position;
+    light.intensity = vec3(1.0f);
+    return light;
+}
+
+class ShadowMap : public VulkanTest {
+protected:
+    std::vector<float> mapsOf(const Scene& scene, uint points = 5) {
+        PassRun run(shadowMapPass(), device());
+        run.scene(scene).param("size", kSize).param("points", points).execute();
+        return run.output<float>("maps");
+    }
+};
+
+float texel(const std::vector<float>& maps, uint map, uint face, uint x, uint y) {
+    return maps[kHeader + ((map * 6 + face) * kSize + y) * kSize + x];
+}
+
+TEST_F(ShadowMap, HoldsDepthAlongTheAxisOfTheFace) {
+    // A floor 5 below the light fills the face that looks down (3) with 5, corners included.
+    test::SceneBuilder builder;
+    addFloor(builder, builder.addMaterial(test::plainMaterial()), 0, 100);
+    Scene scene = builder.finish();
+    scene.lights = {pointLight({0, 5, 0})};
+    const std::vector<float> maps = mapsOf(scene);
+    EXPECT_EQ(maps[0], static_cast<float>(kSize));
+    for (uint i : {0u, 13u, kSize - 1})
+        EXPECT_NEAR(texel(maps, 0, 3, i, kSize - 1 - i), 5.0f, 1e-4f);
+    EXPECT_EQ(texel(maps, 0, 2, 30, 30), 1e30f) << "nothing above";
+    // Texel centre y of a side face looks down by 2 (y + 1/2) / 64 - 1: row 63 by 63/64.
+    EXPECT_NEAR(texel(maps, 0, 0, 30, 63), 5.0f * 64 / 63, 1e-3f);
+    EXPECT_EQ(texel(maps, 0, 0, 30, 31), 1e30f) << "above the horizon";
+}
+
+TEST_F(ShadowMap, SeesBothFaces) {
+    test::SceneBuilder builder;
+    addFloor(builder, builder.addMaterial(test::plainMaterial()), 0, 100);
+    Scene scene = builder.finish();
+    scene.lights = {pointLight({0, -2, 0})};
+    EXPECT_NEAR(texel(mapsOf(scene), 0, 2, 30, 30), 2.0f, 1e-4f);
+}
+
+TEST_F(ShadowMap, LooksThroughHolesOfMaskedMaterials) {
+    // A square at height 3 whose left half (u < 1/2) is a hole, over a floor.
+    test::SceneBuilder builder;
+    Material masked = test::plainMaterial(kMaterialMasked);
+    masked.base_color_texture = builder.addTexture(2, 1, std::vector<uint>{0u, 0xffffffffu});
+    addFloor(builder, builder.addMaterial(test::plainMaterial()), 0, 100);
+    addFloor(builder, builder.addMaterial(masked), 3, 100);
+    Scene scene = builder.finish();
+    scene.lights = {pointLight({0, 5, 0})};
+    const std::vector<float> maps = mapsOf(scene);
+    // Face 3 looks down with up = -z and right = forward x up = -x... its columns run along
+    // cross((0,-1,0), (0,0,-1)) = (1,0,0): the left half is x < 0.
+    EXPECT_NEAR(texel(maps, 0, 3, 10, 30), 5.0f, 1e-4f);
+    EXPECT_NEAR(texel(maps, 0, 3, 50, 30), 2.0f, 1e-4f);
+}
+
+TEST_F(ShadowMap, OfADirectionalLightIsABoxAroundTheScene) {
+    // The floor's sphere has the radius 2 sqrt(2); the box begins that far above it.
+    test::SceneBuilder builder;
+    addFloor(builder, builder.addMaterial(test::plainMaterial()), 1, 2);
+    Scene scene = builder.finish();
+    Light sun{};
+    sun.kind = kLightDirectional;
+    sun.direction = vec3(0, -1, 0);
+    sun.intensity = vec3(1.0f);
+    scene.lights = {sun};
+    const std::vector<float> maps = mapsOf(scene);
+    const float radius = 2.0f * std::sqrt(2.0f);
+    EXPECT_NEAR(maps[5], radius, 1e-5f);
+    EXPECT_NEAR(texel(maps, 0, 0, 32, 32), radius, 1e-4f);
+    // The square covers 2 / (2 radius) = 0.354 of the box to each side of the middle: +- 22 texels.
+    EXPECT_NEAR(texel(maps, 0, 0, 32 + 21, 32), radius, 1e-4f);
+    EXPECT_EQ(texel(maps, 0, 0, 32 + 24, 32), 1e30f);
+    EXPECT_EQ(texel(maps, 0, 3, 32, 32), 1e30f) << "only the first face is used";
+}
+
+TEST_F(ShadowMap, OfARectangleHasFivePointsAndNothingBehind) {
+    test::SceneBuilder builder;
+    const uint material = builder.addMaterial(test::plainMaterial());
+    addFloor(builder, material, 0, 100);
+    addFloor(builder, material, 8, 100);
+    Scene scene = builder.finish();
+    Light light{};
+    light.kind = kLightRectangle;
+    light.position = vec3(0, 5, 0);
+    light.direction = vec3(0, -1, 0);
+    light.half_u = vec3(1, 0, 0);
+    light.half_v = vec3(0, 1, 0); // leaning out of the plane, to tell the points apart
+    light.intensity = vec3(1.0f);
+    scene.lights = {light};
+    const std::vector<float> maps = mapsOf(scene);
+    ASSERT_EQ(maps.size(), kHeader + 5 * 6 * kSize * kSize);
+    EXPECT_NEAR(texel(maps, 0, 3, 32, 32), 5.0f, 1e-4f);
+    EXPECT_NEAR(texel(maps, 1, 3, 32, 32), 4.0f, 1e-4f);
+    EXPECT_NEAR(texel(maps, 4, 3, 32, 32), 6.0f, 1e-4f);
+    for (uint k = 0; k < 5; ++k)
+        EXPECT_EQ(texel(maps, k, 2, 32, 32), 1e30f) << "the light does not shine up";
+    EXPECT_EQ(mapsOf(scene, 1).size(), kHeader + 6 * kSize * kSize);
+}
+
+} // namespace
+} // namespace hone
