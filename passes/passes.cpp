@@ -6,6 +6,9 @@ namespace hone {
 void registerPasses(PassRegistry& registry) {
     registry.add(environmentProbePass());
     registry.add(rasterPass());
+    registry.add(reflectionErrorPass());
+    registry.add(selfOcclusionPass());
+    registry.add(shadowErrorPass());
     registry.add(shadowMapPass());
 }
 

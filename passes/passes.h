@@ -8,6 +8,9 @@ namespace hone {
 // Each in its folder; the manual page is the top comment of its .cpp.
 [[nodiscard]] PassType environmentProbePass();
 [[nodiscard]] PassType rasterPass();
+[[nodiscard]] PassType reflectionErrorPass();
+[[nodiscard]] PassType selfOcclusionPass();
+[[nodiscard]] PassType shadowErrorPass();
 [[nodiscard]] PassType shadowMapPass();
 
 /// Adds every pass that hone ships.

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hone/core/scene/texture.glsl.h"
+
+#include "hone/core/scene/surface.glsl.h"
+
+#include "hone/core/scene/camera.glsl.h"
+
+#include "hone/passes/shading/shading.glsl.h"
+
+struct Params {
+    Camera camera;
+    uvec2 extent;
+    uint metric;
+    uint orientation; ///< 0 corrected, 1 as printed
+    float epsilon;
+};
+HONE_PARAMS(Params)
+HONE_READ(Probe, scene_probes)
+HONE_READ(Hit, gbuffer)
+HONE_READ(float, occlusion)    // by vertex
+HONE_READ(float, max_distance) // by instance: how far from its probe its error is greatest
+HONE_WRITE(vec2, error)
+
+/// Metric 2: how far the surface is from where its reflection was taken. Without a probe nobody
+/// knows.
+float distanceError(Surface surface, uint probe) {
+    if (probe == kNone)
+        return 1.0f;
+    float greatest = max_distance[surface.instance];
+    float away = distance(surface.position, scene_probes[probe].position);
+    return greatest > 0.0f ? min(away / greatest, 1.0f) : 0.0f;
+}
+
+/// Metric 3: -i.r is cos(2 theta), greatest where the lookup is right; turned round,
+/// (1 - -i.r) / 2 = sin^2(theta).
+float reflectionAngleError(vec3 incident, vec3 normal) {
+    float cosine = -dot(incident, reflect(incident, normal));
+    return params.orientation == 1u ? max(cosine, 0.0f) : 0.5f - 0.5f * cosine;
+}
+
+/// Metric 4: -i.n is cos(theta), greatest where the lookup is right.
+float normalAngleError(vec3 incident, vec3 normal) {
+    float cosine = -dot(incident, normal);
+    return params.orientation == 1u ? max(cosine, 0.0f) : 1.0f - cosine;
+}
+
+/// Metric 5: how much of the hemisphere the object itself covers.
+float occlusionError(Surface surface) {
+    Mesh mesh = scene_meshes[scene_instances[surface.instance].mesh];
+    uvec3 corners = scene_triangles[mesh.first_triangle + surface.primitive];
+    vec2 weights = surface.barycentrics;
+    return (1.0f - weights.x - weights.y) * occlusion[corners.x] +
+           weights.x * occlusion[corners.y] + weights.y * occlusion[corners.z];
+}
+
+float metricError(Surface surface, vec3 incident) {
+    if (params.metric == 1u)
+        return 1.0f;
+    if (params.metric == 2u)
+        return distanceError(surface, scene_instances[surface.instance].probe);
+    if (params.metric == 3u)
+        return reflectionAngleError(incident, surface.normal);
+    if (params.metric == 4u)
+        return normalAngleError(incident, surface.normal);
+    return occlusionError(surface);
+}
+
+void kernel(uint index) {
+    error[index] = vec2(0.0f);
+    Hit hit = gbuffer[index];
+    if (hit.instance == kNone)
+        return;
+    uint flags = scene_materials[scene_meshes[scene_instances[hit.instance].mesh].material].flags;
+    if ((flags & kMaterialMirror) == 0u)
+        return;
+    Ray ray = cameraRay(params.camera, params.extent, pixelCenter(index, params.extent));
+    Surface surface = surfaceAt(ray, hit);
+    vec3 incident = normalize(ray.direction);
+    vec3 weight = mirrorWeight(scene_materials[surface.material], surface.normal, incident);
+    if (max(weight.x, max(weight.y, weight.z)) <= params.epsilon)
+        return;
+    float found = metricError(surface, incident);
+    // What is no number is an error for certain.
+    found = found >= 0.0f || found < 0.0f ? clamp(found, 0.0f, 1.0f) : 1.0f;
+    error[index] = vec2(found);
+}
