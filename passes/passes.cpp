@@ -4,12 +4,20 @@
 namespace hone {
 
 void registerPasses(PassRegistry& registry) {
+    registry.add(accumulatePass());
+    registry.add(blendPass());
+    registry.add(combinePass());
+    registry.add(differencePass());
     registry.add(environmentProbePass());
     registry.add(rasterPass());
     registry.add(reflectionErrorPass());
+    registry.add(requestPass());
     registry.add(selfOcclusionPass());
     registry.add(shadowErrorPass());
     registry.add(shadowMapPass());
+    registry.add(sortPass());
+    registry.add(tonemapPass());
+    registry.add(tracePass());
 }
 
 } // namespace hone

@@ -6,12 +6,20 @@
 namespace hone {
 
 // Each in its folder; the manual page is the top comment of its .cpp.
+[[nodiscard]] PassType accumulatePass();
+[[nodiscard]] PassType blendPass();
+[[nodiscard]] PassType combinePass();
+[[nodiscard]] PassType differencePass();
 [[nodiscard]] PassType environmentProbePass();
 [[nodiscard]] PassType rasterPass();
 [[nodiscard]] PassType reflectionErrorPass();
+[[nodiscard]] PassType requestPass();
 [[nodiscard]] PassType selfOcclusionPass();
 [[nodiscard]] PassType shadowErrorPass();
 [[nodiscard]] PassType shadowMapPass();
+[[nodiscard]] PassType sortPass();
+[[nodiscard]] PassType tonemapPass();
+[[nodiscard]] PassType tracePass();
 
 /// Adds every pass that hone ships.
 void registerPasses(PassRegistry& registry);

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+
+struct Params {
+    uint mode;
+    uint metrics;       ///< how many edges `errors` has
+    vec4 weights_first; ///< of edges 0 to 3
+    vec4 weights_last;  ///< of edges 4 to 7
+};
+HONE_PARAMS(Params)
+HONE_READS(vec2, errors, 8)
+HONE_WRITE(vec2, error)
+
+HONE_CONST uint kMean = 0u;
+HONE_CONST uint kLinear = 1u;
+HONE_CONST uint kMax = 2u;
+HONE_CONST float kLargest = 3.402823466e38f;
+
+/// What an error must be: NaN and infinity say that a metric failed and count as 1, never as 0.
+float sanitised(float x) {
+    if ((floatBitsToUint(x) & 0x7f800000u) == 0x7f800000u)
+        return 1.0f;
+    return x > 0.0f ? x : 0.0f;
+}
+
+float weightOf(uint metric) {
+    return metric < 4u ? params.weights_first[metric] : params.weights_last[metric - 4u];
+}
+
+void kernel(uint index) {
+    float expect = 0.0f;
+    float bound = 0.0f;
+    for (uint metric = 0u; metric < params.metrics; ++metric) {
+        vec2 term = errors[metric].data[index];
+        float term_expect = sanitised(term.x);
+        float term_bound = sanitised(term.y);
+        if (params.mode != kMean)
+            term_expect *= weightOf(metric);
+        if (params.mode == kMax) {
+            expect = max(expect, term_expect);
+            bound = max(bound, term_bound);
+        } else {
+            expect += term_expect;
+            bound += term_bound;
+        }
+    }
+    if (params.mode == kMean)
+        expect /= float(max(params.metrics, 1u));
+    error[index] = vec2(min(expect, kLargest), min(bound, kLargest));
+}
