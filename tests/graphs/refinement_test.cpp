@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What hone promises above all: a refined image is the ray-traced image, bit for bit, once every
+// pixel has its samples, whatever the order said and however large the batches were.
+#include "hone/backends/embree/embree_backend.h"
+#include "hone/backends/host/host_device.h"
+#include "hone/core/graph/executor.h"
+#include "hone/passes/passes.h"
+#include "hone/tests/support/vulkan_fixture.h"
+
+#include <bit>
+
+namespace hone {
+namespace {
+
+constexpr uvec2 kExtent{64, 48};
+constexpr std::uint64_t kSeed = 3;
+
+class Refinement : public VulkanTest, public testing::WithParamInterface<std::string> {
+protected:
+    void SetUp() override {
+        VulkanTest::SetUp();
+        if (IsSkipped())
+            return;
+        registerPasses(passes_);
+        tracers_.add("embree", "", [] { return makeEmbreeBackend(); });
+        host_ = makeHostDevice();
+        scene_ = loadScene("builtin:" + GetParam());
+        camera_ = makeCamera(scene_.camera(""));
+    }
+
+    std::unique_ptr<Executor> load(const std::string& graph) {
+        const Catalog catalog{&passes_, &tracers_};
+        auto executor = std::make_unique<Executor>(
+            loadGraph(HONE_SOURCE_DIR "/graphs/" + graph + ".json", catalog, {}), catalog,
+            Devices{host_.get(), &device()}, kSeed);
+        executor->setScene(scene_);
+        executor->setCamera(camera_);
+        executor->setExtent(kExtent);
+        return executor;
+    }
+
+    static std::vector<vec3> colorOf(Executor& executor) {
+        executor.run();
+        const std::span<vec3> pixels = executor.output("color").as<vec3>();
+        EXPECT_EQ(pixels.size(), std::size_t{kExtent.x} * kExtent.y);
+        return {pixels.begin(), pixels.end()};
+    }
+
+    /// How many pixels differ in a bit, and the first of them.
+    static testing::AssertionResult areSameBits(const std::vector<vec3>& a,
+                                                const std::vector<vec3>& b) {
+        std::size_t differing = 0, first = 0;
+        for (std::size_t pixel = a.size(); pixel-- > 0;) {
+            bool same = true;
+            for (int channel = 0; channel < 3; ++channel)
+                same &= std::bit_cast<uint>(a[pixel][channel]) ==
+                        std::bit_cast<uint>(b[pixel][channel]);
+            if (!same) {
+                ++differing;
+                first = pixel;
+            }
+        }
+        if (differing == 0)
+            return testing::AssertionSuccess();
+        return testing::AssertionFailure()
+               << differing << " pixels differ, first (" << first % kExtent.x << ", "
+               << first / kExtent.x << "): " << a[first].x << " " << a[first].y << " " << a[first].z
+               << " against " << b[first].x << " " << b[first].y << " " << b[first].z;
+    }
+
+    PassRegistry passes_;
+    TraceBackendRegistry tracers_;
+    std::unique_ptr<Device> host_;
+    Scene scene_;
+    Camera camera_{};
+};
+
+TEST_P(Refinement, EndsAtTheTracedImageBitForBit) {
+    const std::vector<vec3> traced = colorOf(*load("prt"));
+    const std::unique_ptr<Executor> refined = load("sir");
+    // Mirrors and soft shadows: there is something to refine.
+    if (GetParam() == "cornell" || GetParam() == "mirror_sphere") {
+        refined->run();
+        const std::span<vec3> raster = refined->output("raster").as<vec3>();
+        EXPECT_FALSE(areSameBits({raster.begin(), raster.end()}, traced));
+    }
+    for (const char* strategy : {"select", "radix"})
+        for (const char* metric : {"1", "2", "3", "4"})
+            for (const char* batch : {"1", "8192", "0"}) {
+                SCOPED_TRACE(std::string("strategy ") + strategy + ", metric " + metric +
+                             ", batch " + batch);
+                refined->setParameter("strategy", strategy);
+                refined->setParameter("metric", metric);
+                refined->setParameter("batch", batch);
+                EXPECT_TRUE(areSameBits(colorOf(*refined), traced));
+                const Curve& curve = *refined->output("curve").curve;
+                EXPECT_EQ(curve.stop, "empty");
+                // Each pixel was requested once.
+                constexpr std::size_t kPixels = std::size_t{kExtent.x} * kExtent.y;
+                EXPECT_EQ(curve.records.size(), std::string_view(batch) == "1" ? kPixels : 1);
+                EXPECT_EQ(curve.records.back().pixels, kPixels);
+            }
+}
+
+TEST_P(Refinement, EndsAtTheTracedImageWithSeveralSamples) {
+    const std::unique_ptr<Executor> prt = load("prt"), sir = load("sir");
+    for (Executor* executor : {prt.get(), sir.get()})
+        executor->setParameter("samples", "3");
+    sir->setParameter("batch", "100");
+    EXPECT_TRUE(areSameBits(colorOf(*sir), colorOf(*prt)));
+}
+
+TEST_P(Refinement, TracesTheSameImageInBatchesOfAnySize) {
+    const std::unique_ptr<Executor> prt = load("prt");
+    const std::vector<vec3> at_once = colorOf(*prt);
+    for (const char* batch : {"1", "1000", "3072"}) {
+        prt->setParameter("batch", batch);
+        EXPECT_TRUE(areSameBits(colorOf(*prt), at_once)) << "batch " << batch;
+    }
+}
+
+// Both strategies request the same pixels in every batch, so that an early stop shows the same
+// image, too.
+TEST_P(Refinement, ShowsTheSameImageForBothStrategiesAtEveryStop) {
+    const std::unique_ptr<Executor> refined = load("sir");
+    refined->setParameter("batch", "500");
+    for (std::uint64_t iterations = 1; iterations <= 6; iterations += 2) {
+        std::vector<vec3> images[2];
+        for (const int radix : {0, 1}) {
+            refined->setParameter("strategy", radix == 1 ? "radix" : "select");
+            RunOptions options;
+            options.max_iterations = iterations;
+            refined->run(options);
+            const std::span<vec3> pixels = refined->output("color").as<vec3>();
+            images[radix].assign(pixels.begin(), pixels.end());
+        }
+        EXPECT_TRUE(areSameBits(images[0], images[1])) << "after " << iterations << " batches";
+    }
+}
+
+// The names of builtinScenes(), which are known only while the program runs.
+INSTANTIATE_TEST_SUITE_P(Scenes, Refinement,
+                         testing::Values("cornell", "mirror_sphere", "planar_mirror",
+                                         "straight_edge", "lit_floor", "alpha_quad", "two_sided",
+                                         "one_triangle", "empty"),
+                         [](const auto& scene) { return scene.param; });
+
+} // namespace
+} // namespace hone
