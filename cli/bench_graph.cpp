@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hone/cli/bench_graph.h"
+
+#include "hone/cli/commands.h"
+#include "hone/core/error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+
+namespace hone::cli {
+
+CompiledGraph makeBenchGraph(const Catalog& catalog) {
+    using Json = nlohmann::ordered_json;
+    const std::string path = findGraph("sir");
+    std::ifstream file(path);
+    if (!file)
+        throw GraphError(path + ": cannot be read");
+    Json graph = Json::parse(file);
+    Json& passes = graph["passes"];
+    const Json view = {{"scene", "$scene"}, {"camera", "$camera"}};
+    passes["visibility"] = {{"type", "bench.visibility"}, {"in", view}};
+    passes["depth_only"] = {{"type", "bench.depth_only"}, {"in", view}};
+    passes["noise"] = {{"type", "bench.noise"}, {"in", {{"error", "combine.error"}}}};
+    for (const char* strategy : {"select", "radix"})
+        passes[strategy] = {{"type", "sort"},
+                            {"in", {{"error", "noise.noisy"}}},
+                            {"params", {{"strategy", strategy}, {"batch", kBenchBatch}}}};
+    passes["tonemap"] = {{"type", "tonemap"}, {"in", {{"color", "refine.image"}}}};
+    // What is no output, or leads to one, would be culled.
+    Json& outputs = graph["outputs"];
+    outputs["visibility"] = "visibility.gbuffer";
+    outputs["depth_only"] = "depth_only.depth";
+    outputs["noise"] = "noise.noisy";
+    outputs["select"] = "select.order";
+    outputs["radix"] = "radix.order";
+    outputs["display"] = "tonemap.display";
+
+    std::vector<Diagnostic> diagnostics;
+    CompiledGraph compiled = compile(parseGraph("bench of " + path, graph.dump(2), diagnostics),
+                                     catalog, {}, diagnostics);
+    if (std::ranges::any_of(diagnostics,
+                            [](const Diagnostic& d) { return d.severity == Severity::kError; }))
+        throw GraphError(format(diagnostics));
+    return compiled;
+}
+
+Traffic trafficOf(const CompiledGraph& graph, std::string_view node_name, std::size_t pixels) {
+    const PlannedNode* node = graph.findNode(node_name);
+    HONE_ASSERT(node != nullptr, std::string(node_name));
+    const auto bytes = [&](ValueId id) -> std::size_t {
+        if (id == kNoId)
+            return 0;
+        const PortType& type = graph.values[id].type;
+        const bool is_by_pixel = type.shape == Shape::kPlane || type.shape == Shape::kList;
+        return is_by_pixel ? pixels * type.stride : 0;
+    };
+    Traffic traffic;
+    for (const PlannedEdge& edge : node->inputs)
+        traffic.read += bytes(edge.value);
+    for (const PlannedOutput& output : node->outputs)
+        traffic.written += bytes(output.value);
+    return traffic;
+}
+
+} // namespace hone::cli

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hone/cli/commands.h"
+#include "hone/core/error.h"
+#include "hone/core/log.h"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <functional>
+#include <iostream>
+#include <new>
+
+#include <unistd.h>
+
+namespace hone::cli {
+namespace {
+
+/// Reads "800x600".
+CLI::Option* addSize(CLI::App* app, const std::string& name, uvec2& size, const std::string& doc) {
+    return app
+        ->add_option_function<std::string>(
+            name,
+            [&size, name](const std::string& text) {
+                unsigned width = 0, height = 0;
+                char rest = 0;
+                if (std::sscanf(text.c_str(), "%ux%u%c", &width, &height, &rest) != 2 ||
+                    width == 0 || height == 0 || width > 16384 || height > 16384)
+                    throw CLI::ValidationError(
+                        name,
+                        "expected WxH from 1x1 to 16384x16384, like 800x600; got \"" + text + "\"");
+                size = {width, height};
+            },
+            doc)
+        ->type_name("WxH");
+}
+
+void addOverrides(CLI::App* app, Overrides& overrides) {
+    app->add_option_function<std::vector<std::string>>(
+           "--set",
+           [&overrides](const std::vector<std::string>& assignments) {
+               for (const std::string& assignment : assignments) {
+                   const std::size_t equals = assignment.find('=');
+                   if (equals == std::string::npos || equals == 0)
+                       throw CLI::ValidationError("--set", "expected name=value; got \"" +
+                                                               assignment + "\"");
+                   overrides.emplace_back(assignment.substr(0, equals),
+                                          assignment.substr(equals + 1));
+               }
+           },
+           "a graph's parameter (batch=4096) or a pass's (refine.trace.max_depth=1); repeatable")
+        ->type_name("NAME=VALUE")
+        ->take_all();
+}
+
+/// Runs `command` and turns what it throws into one message and an exit code.
+int guarded(const std::function<int()>& command, std::ostream& err) {
+    const auto report = [&](const std::exception& problem, int code) {
+        err << problem.what() << (std::string_view(problem.what()).ends_with('\n') ? "" : "\n");
+        return code;
+    };
+    try {
+        return command();
+    } catch (const GraphError& problem) {
+        return report(problem, kBadInput);
+    } catch (const SceneError& problem) {
+        return report(problem, kBadInput);
+    } catch (const InputError& problem) {
+        return report(problem, kBadInput);
+    } catch (const DeviceError& problem) {
+        return report(problem, kNoDevice);
+    } catch (const OutOfMemory& problem) {
+        return report(problem, kNoMemory);
+    } catch (const std::bad_alloc&) {
+        err << "out of memory\n";
+        return kNoMemory;
+    } catch (const OutputError& problem) {
+        return report(problem, kNotWritten);
+    } catch (const std::exception& problem) {
+        err << "internal error, please report it: ";
+        return report(problem, kInternal);
+    }
+}
+
+} // namespace
+
+std::string findGraph(const std::string& name) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    if (fs::is_regular_file(name, ignored))
+        return name;
+    const fs::path shipped = fs::path(HONE_SOURCE_DIR) / "graphs" / fs::path(name).filename();
+    for (const fs::path& candidate : {shipped, fs::path(shipped.string() + ".json")})
+        if (fs::is_regular_file(candidate, ignored))
+            return candidate.string();
+    return name; // the reader's own message says that it is not there
+}
+
+int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+    const Console console{out, err, &err == &std::cerr && isatty(STDERR_FILENO) != 0};
+    CLI::App app{
+        "Render graphs that rasterise first and trace the worst pixels: smart image refinement.\n"
+        "First steps:  hone demo   |   hone render sir --scene builtin:cornell   |   hone passes"};
+    app.name("hone");
+    app.set_version_flag("--version", std::string("hone ") + HONE_VERSION);
+    app.require_subcommand(1);
+    bool verbose = false;
+    app.add_flag("-v,--verbose", verbose, "say what is chosen and built");
+
+    std::function<int()> command;
+    const auto chosen = [&command](CLI::App* sub, std::function<int()> run) {
+        sub->callback([&command, run = std::move(run)] { command = run; });
+    };
+
+    DemoArguments demo_arguments;
+    CLI::App* demo_app =
+        app.add_subcommand("demo", "render the built-in atrium and show what refinement does");
+    demo_app->add_option("-o,--output", demo_arguments.output_directory, "folder for the pictures")
+        ->capture_default_str();
+    demo_app->add_option("--device", demo_arguments.device,
+                         "Vulkan device: part of its name, or its index");
+    addSize(demo_app, "--size", demo_arguments.size, "picture size (960x640)");
+    chosen(demo_app, [&] { return demo(demo_arguments, console); });
+
+    RenderArguments render_arguments;
+    CLI::App* render_app = app.add_subcommand("render", "run a graph and write its outputs");
+    render_app
+        ->add_option("graph", render_arguments.graph,
+                     "graph file, or a shipped graph's name (sir, prt, …)")
+        ->required();
+    render_app
+        ->add_option("--scene", render_arguments.scene, "*.scene.json, .gltf, .glb or builtin:NAME")
+        ->capture_default_str();
+    render_app->add_option("--camera", render_arguments.camera,
+                           "a camera of the scene (its first)");
+    addSize(render_app, "--size", render_arguments.size, "image size (800x600)");
+    addOverrides(render_app, render_arguments.overrides);
+    render_app
+        ->add_option("-o,--output", render_arguments.output_directory, "folder for the images")
+        ->capture_default_str();
+    render_app->add_option("--device", render_arguments.device,
+                           "Vulkan device: part of its name, its index, or none");
+    render_app
+        ->add_option("--threads", render_arguments.threads,
+                     "threads for kernels and rays (0 = all)")
+        ->check(CLI::NonNegativeNumber);
+    render_app->add_option("--seed", render_arguments.seed, "random numbers' seed (0)");
+    render_app->add_option("--max-ms", render_arguments.max_ms, "stop refining after so long")
+        ->check(CLI::NonNegativeNumber);
+    render_app->add_option("--max-rays", render_arguments.max_rays,
+                           "stop refining after so many rays");
+    render_app->add_option("--iterations", render_arguments.iterations,
+                           "stop refining after so many batches");
+    render_app->add_option("--reference", render_arguments.reference,
+                           "compare the color output with this image");
+    render_app->add_flag("--validate", render_arguments.validate,
+                         "run Vulkan's validation layer; a message fails the run");
+    render_app->add_flag("-q,--quiet", render_arguments.quiet, "no progress and no summary");
+    render_app->add_flag("--json", render_arguments.json, "one JSON object on standard output");
+    chosen(render_app, [&] { return render(render_arguments, console); });
+
+    CheckArguments check_arguments;
+    CLI::App* check_app =
+        app.add_subcommand("check", "report every problem in graph files; opens no device");
+    check_app->add_option("graphs", check_arguments.graphs, "graph files")->required();
+    addOverrides(check_app, check_arguments.overrides);
+    check_app->add_flag("--plan", check_arguments.plan, "print the compiled plan");
+    check_app->add_flag("--json", check_arguments.json, "one JSON object on standard output");
+    chosen(check_app, [&] { return check(check_arguments, console); });
+
+    PassesArguments passes_arguments;
+    CLI::App* passes_app =
+        app.add_subcommand("passes", "what passes there are, or one pass's ports and parameters");
+    passes_app->add_option("name", passes_arguments.name, "a pass type");
+    passes_app->add_flag("--json", passes_arguments.json, "one JSON object on standard output");
+    chosen(passes_app, [&] { return passes(passes_arguments, console); });
+
+    CompareArguments compare_arguments;
+    CLI::App* compare_app =
+        app.add_subcommand("compare", "how far two images (EXR, PNG) are apart");
+    compare_app->add_option("a", compare_arguments.a, "an image")->required();
+    compare_app->add_option("b", compare_arguments.b, "another")->required();
+    compare_app->add_option("--layer", compare_arguments.layer, "which layer of EXR files");
+    compare_app->add_option("--heat-map", compare_arguments.heat_map,
+                            "PNG of the difference to write");
+    compare_app->add_option("--max-difference", compare_arguments.max_difference,
+                            "exit 1 if a channel differs by more");
+    compare_app->add_option("--max-differing-bits", compare_arguments.max_differing_bits,
+                            "exit 1 if more bits differ (0 = must be identical)");
+    compare_app->add_flag("--json", compare_arguments.json, "one JSON object on standard output");
+    chosen(compare_app, [&] { return compare(compare_arguments, console); });
+
+    DoctorArguments doctor_arguments;
+    CLI::App* doctor_app =
+        app.add_subcommand("doctor", "what works on this machine, and what to install");
+    doctor_app->add_flag("--json", doctor_arguments.json, "one JSON object on standard output");
+    chosen(doctor_app, [&] { return doctor(doctor_arguments, console); });
+
+    BenchPartsArguments bench_arguments;
+    CLI::App* bench_app = app.add_subcommand("bench", "measure speed, side by side in one run");
+    bench_app->require_subcommand(1);
+    CLI::App* parts_app = bench_app->add_subcommand(
+        "parts", "each part of a refinement against its bare counterpart");
+    parts_app->add_option("--scene", bench_arguments.scene,
+                          "scene (Sponza where it is there, else builtin:atrium)");
+    parts_app->add_option("--camera", bench_arguments.camera, "a camera of the scene (its first)");
+    parts_app
+        ->add_option("--repeats", bench_arguments.repeats,
+                     "runs of each measurement; the median counts")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    std::vector<std::string> size_texts;
+    parts_app->add_option("--sizes", size_texts, "image sizes (800x600 1024x768 1920x1080)");
+    parts_app->add_flag("--json", bench_arguments.json, "one JSON object on standard output");
+    parts_app->callback([&] {
+        if (!size_texts.empty())
+            bench_arguments.sizes.clear();
+        for (const std::string& text : size_texts) {
+            uvec2 size{0, 0};
+            if (std::sscanf(text.c_str(), "%ux%u", &size.x, &size.y) != 2 || size.x == 0 ||
+                size.y == 0)
+                throw CLI::ValidationError("--sizes", "expected WxH; got \"" + text + "\"");
+            bench_arguments.sizes.push_back(size);
+        }
+        command = [&] { return benchParts(bench_arguments, console); };
+    });
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& problem) {
+        return app.exit(problem, out, err) == 0 ? kOk : kUsage;
+    }
+    if (verbose)
+        logger().set_level(spdlog::level::info);
+    return guarded(command, err);
+}
+
+} // namespace hone::cli

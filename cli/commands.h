@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hone/core/graph/compiled_graph.h"
+#include "hone/core/math.h"
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace hone::cli {
+
+/// What a command ended with; DESIGN: published, tested.
+enum ExitCode : int {
+    kOk = 0,
+    kTargetNotMet = 1,
+    kUsage = 2,
+    kBadInput = 3,
+    kPluginFailed = 4,
+    kNoDevice = 5,
+    kNoMemory = 6,
+    kNotWritten = 7,
+    kInterrupted = 130,
+    kInternal = 70,
+};
+
+/// Where a command speaks: data for programs to `out`, everything for people to `err`.
+struct Console {
+    std::ostream& out;
+    std::ostream& err;
+    bool err_is_terminal = false; ///< live progress and colour only then
+};
+
+struct CheckArguments {
+    std::vector<std::string> graphs;
+    Overrides overrides;
+    bool plan = false; ///< print the plan's dump
+    bool json = false;
+};
+
+struct PassesArguments {
+    std::string name; ///< "" = list
+    bool json = false;
+};
+
+struct CompareArguments {
+    std::string a, b;
+    std::string layer;          ///< of EXR files; "" = the first with three channels
+    std::string heat_map;       ///< PNG to write; "" = none
+    double max_difference = -1; ///< exit 1 past it; negative = never
+    long long max_differing_bits = -1;
+    bool json = false;
+};
+
+struct DoctorArguments {
+    bool json = false;
+};
+
+struct RenderArguments {
+    std::string graph;
+    std::string scene = "builtin:atrium";
+    std::string camera;
+    uvec2 size{800, 600};
+    Overrides overrides;
+    std::string output_directory = "out";
+    std::string device; ///< Vulkan device: part of its name; "none"
+    int threads = 0;    ///< 0 = all
+    std::uint64_t seed = 0;
+    double max_ms = 0;
+    std::uint64_t max_rays = 0;
+    std::uint64_t iterations = 0;
+    std::string reference; ///< an image to compare "color" with
+    bool validate = false; ///< Vulkan validation layer; messages fail the run
+    bool quiet = false;
+    bool json = false;
+};
+
+struct DemoArguments {
+    std::string output_directory = "out/demo";
+    std::string device;
+    uvec2 size{960, 640};
+};
+
+struct BenchPartsArguments {
+    std::string scene;
+    std::string camera;
+    std::vector<uvec2> sizes{{800, 600}, {1024, 768}, {1920, 1080}};
+    int repeats = 5;
+    bool json = false;
+};
+
+int check(const CheckArguments& arguments, const Console& console);
+int passes(const PassesArguments& arguments, const Console& console);
+int compare(const CompareArguments& arguments, const Console& console);
+int doctor(const DoctorArguments& arguments, const Console& console);
+int render(const RenderArguments& arguments, const Console& console);
+int demo(const DemoArguments& arguments, const Console& console);
+int benchParts(const BenchPartsArguments& arguments, const Console& console);
+
+/// Reads the command line, runs the command, turns exceptions into one message and an exit code.
+int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::ostream& err);
+
+/// A shipped graph by file or by name: "sir" and "graphs/sir.json" find the installed or source
+/// tree's graph when no such file is in the working directory.
+[[nodiscard]] std::string findGraph(const std::string& name);
+
+} // namespace hone::cli

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// hone compare: how far two images are apart.
+#include "hone/cli/color_map.h"
+#include "hone/cli/commands.h"
+#include "hone/cli/json.h"
+
+#include "hone/core/error.h"
+#include "hone/core/image/compare.h"
+#include "hone/core/image/image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+namespace hone::cli {
+namespace {
+
+/// Infinity has no spelling in JSON: null.
+nlohmann::ordered_json finite(double number) {
+    return std::isfinite(number) ? nlohmann::ordered_json(number) : nlohmann::ordered_json(nullptr);
+}
+
+/// Each pixel's largest channel difference; the scale's end is the largest of all.
+void writeHeatMap(const std::string& path, const RgbImage& a, const RgbImage& b, double largest) {
+    std::vector<vec3> colors(a.pixels.size());
+    const float scale =
+        largest > 0 && std::isfinite(largest) ? static_cast<float>(1.0 / largest) : 1.0f;
+    std::ranges::transform(a.pixels, b.pixels, colors.begin(), [scale](vec3 x, vec3 y) {
+        const vec3 d = glm::abs(x - y);
+        return heatColor(std::max({d.x, d.y, d.z}) * scale);
+    });
+    writePng(path, quantize(a.extent, colors));
+}
+
+} // namespace
+
+int compare(const CompareArguments& arguments, const Console& console) {
+    RgbImage a = readRgb(arguments.a, arguments.layer);
+    RgbImage b = readRgb(arguments.b, arguments.layer);
+    // A linear and a display image are compared as a screen would show them.
+    if (a.is_display != b.is_display) {
+        a = toDisplay(a);
+        b = toDisplay(b);
+    }
+    const ImageDifference difference = compareImages(a, b);
+    if (!arguments.heat_map.empty())
+        writeHeatMap(arguments.heat_map, a, b, difference.max);
+    if (arguments.json)
+        print(console.out, {{"mse", finite(difference.mse)},
+                            {"rmse", finite(difference.rmse)},
+                            {"psnr", finite(difference.psnr)},
+                            {"ssim", finite(difference.ssim)},
+                            {"max", finite(difference.max)},
+                            {"differing_pixels", difference.differing_pixels},
+                            {"differing_bits", difference.differing_bits}});
+    else
+        console.out << "mse " << difference.mse << "\nrmse " << difference.rmse << "\npsnr "
+                    << difference.psnr << " dB\nssim " << difference.ssim << "\nmax "
+                    << difference.max << "\ndiffering pixels " << difference.differing_pixels
+                    << " of " << a.pixels.size() << "\ndiffering bits " << difference.differing_bits
+                    << "\n";
+    const bool too_far =
+        arguments.max_difference >= 0 && !(difference.max <= arguments.max_difference);
+    const bool too_many =
+        arguments.max_differing_bits >= 0 &&
+        difference.differing_bits > static_cast<std::uint64_t>(arguments.max_differing_bits);
+    return too_far || too_many ? kTargetNotMet : kOk;
+}
+
+} // namespace hone::cli

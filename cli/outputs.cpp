@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hone/cli/outputs.h"
+
+#include "hone/cli/color_map.h"
+#include "hone/core/image/atomic_file.h"
+#include "hone/core/image/png.h"
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <sstream>
+
+namespace hone::cli {
+namespace {
+
+/// A plane's elements as floats, `channels` a pixel. Whole numbers above 2^24 lose their last
+/// digits.
+ImageLayer toLayer(const std::string& name, const Value& value) {
+    ImageLayer layer{name, {}, {}};
+    const auto add = [&]<class T>(std::span<const T> words) {
+        layer.values.assign(words.begin(), words.end());
+    };
+    const std::size_t words = value.count * value.type->stride / 4;
+    if (*value.type == types::kError)
+        layer.channel_names = {"expect", "bound"};
+    else if (*value.type == types::kHits)
+        layer.channel_names = {"instance", "primitive"};
+    else
+        layer.channel_names = usualChannelNames(value.type->stride / 4);
+    if (*value.type == types::kHits || *value.type == types::kRound)
+        add(std::span<const uint>(value.buffer.as<uint>().first(words)));
+    else
+        add(std::span<const float>(value.buffer.as<float>().first(words)));
+    return layer;
+}
+
+std::string toCsv(const Curve& curve) {
+    std::ostringstream text;
+    text << "iteration,pixels,rays,ms,worst_expect\n";
+    for (const LoopRecord& record : curve.records)
+        text << record.iteration << ',' << record.pixels << ',' << record.rays << ',' << record.ms
+             << ',' << record.worst_expect << '\n';
+    return text.str();
+}
+
+/// A graph's name is any text: only letters, digits, "_" and "-" of it go into a file's name, so
+/// that it stays in the output folder.
+std::string fileStem(std::string name) {
+    const auto is_plain = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '_' || c == '-';
+    };
+    std::ranges::replace_if(name, std::not_fn(is_plain), '_');
+    return name;
+}
+
+} // namespace
+
+std::vector<vec3> picture(const Value& value) {
+    std::vector<vec3> result;
+    if (value.type->shape != Shape::kPlane)
+        return result;
+    const auto map = [&]<class T>(std::span<T> elements, auto color) {
+        result.resize(elements.size());
+        std::ranges::transform(elements, result.begin(), color);
+    };
+    if (*value.type == types::kRadiance) {
+        const std::span<vec3> pixels = value.as<vec3>();
+        result = toDisplay({value.extent, {pixels.begin(), pixels.end()}, false}).pixels;
+    } else if (*value.type == types::kDisplay) {
+        map(value.as<vec3>(), [](vec3 color) { return color; });
+    } else if (*value.type == types::kError) {
+        map(value.as<vec2>(), [](vec2 error) { return heatColor(error.x); });
+    } else if (*value.type == types::kRound) {
+        const std::span<uint> rounds = value.as<uint>();
+        const uint last = rounds.empty() ? 0u : std::max(1u, *std::ranges::max_element(rounds));
+        // Early rounds glow, later ones fade; what was never traced is black.
+        map(rounds, [last](uint round) {
+            return round == 0 ? vec3(0)
+                              : heatColor(1.0f - 0.85f * static_cast<float>(round - 1) /
+                                                     static_cast<float>(last));
+        });
+    } else if (*value.type == types::kDepth) {
+        const std::span<float> depths = value.as<float>();
+        const float far =
+            depths.empty() ? 1.0f : std::max(1e-6f, *std::ranges::max_element(depths));
+        map(depths, [far](float depth) { return vec3(depth > 0 ? 1.0f - depth / far : 0.0f); });
+    } else if (*value.type == types::kHits) {
+        map(value.as<uvec2>(),
+            [](uvec2 hit) { return idColor(hit.x == kNone ? 0u : hit.x * 7919u + hit.y + 1u); });
+    }
+    return result;
+}
+
+std::vector<std::string> writeOutputs(const Executor& executor, const std::string& directory,
+                                      const Provenance& provenance) {
+    std::vector<std::string> paths;
+    LayeredImage layered{{0, 0}, {}, provenance};
+    for (const std::string& name : executor.outputs()) {
+        const Value& value = executor.output(name);
+        if (value.type->shape == Shape::kCurve && value.curve != nullptr) {
+            const std::string text = toCsv(*value.curve);
+            paths.push_back(directory + "/" + name + ".csv");
+            writeFileAtomically(paths.back(), std::as_bytes(std::span(text)));
+        }
+        if (value.type->shape != Shape::kPlane)
+            continue;
+        layered.extent = value.extent;
+        layered.layers.push_back(toLayer(name, value));
+        if (const std::vector<vec3> pixels = picture(value); !pixels.empty()) {
+            paths.push_back(directory + "/" + name + ".png");
+            writePng(paths.back(), quantize(value.extent, pixels), provenance);
+        }
+    }
+    if (!layered.layers.empty()) {
+        paths.push_back(directory + "/" + fileStem(executor.graph().name) + ".exr");
+        writeExr(paths.back(), layered);
+    }
+    return paths;
+}
+
+} // namespace hone::cli

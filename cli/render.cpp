@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// hone render: runs a graph and writes its outputs.
+#include "hone/cli/commands.h"
+#include "hone/cli/json.h"
+#include "hone/cli/outputs.h"
+#include "hone/cli/progress.h"
+#include "hone/cli/run.h"
+
+#include "hone/core/image/atomic_file.h"
+#include "hone/core/image/compare.h"
+
+#include <tbb/global_control.h>
+
+#include <chrono>
+#include <iomanip>
+#include <optional>
+#include <ostream>
+
+namespace hone::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json report(const Stage& stage, const RenderArguments& arguments, double frame_ms,
+            const std::vector<std::string>& paths) {
+    const Executor& executor = *stage.executor;
+    Json passes = Json::array();
+    for (const NodeReport& node : executor.nodes())
+        passes.push_back({{"name", node.name},
+                          {"type", node.type},
+                          {"ms", node.ms},
+                          {"runs", node.runs},
+                          {"where", node.where}});
+    Json rays = Json::object();
+    for (const Counter& counter : executor.counters().all())
+        if (counter.name.starts_with("rays."))
+            rays[std::string(counter.name.substr(5))] = counter.value;
+    const double pixels = static_cast<double>(arguments.size.x) * arguments.size.y;
+    const std::uint64_t error_pixels = executor.counters().get("error_pixels");
+    const Curve* curve = findCurve(executor);
+    return {
+        {"graph", executor.graph().name},
+        {"scene", stage.scene.name},
+        {"size", {arguments.size.x, arguments.size.y}},
+        {"device", stage.devices.raster != nullptr ? stage.devices.raster->info().name : "none"},
+        {"backend", backendOf(*stage.executor)},
+        {"seed", arguments.seed},
+        {"passes", passes},
+        {"frame_ms", frame_ms},
+        {"error_pixels", error_pixels},
+        {"error_share", static_cast<double>(error_pixels) / pixels},
+        {"rays", rays},
+        {"iterations", curve != nullptr ? curve->records.size() : 0},
+        {"stop", curve != nullptr ? curve->stop : ""},
+        {"validation_messages", stage.session.validationMessages()},
+        {"outputs", paths}};
+}
+
+void summarise(const Json& report, const Console& console) {
+    std::ostream& err = console.err;
+    err << std::fixed << std::setprecision(1);
+    for (const Json& pass : report["passes"])
+        err << "  " << std::left << std::setw(20) << pass["name"].get<std::string>()
+            << std::setw(20) << pass["type"].get<std::string>() << std::right << std::setw(9)
+            << pass["ms"].get<double>() << " ms  " << std::setw(6)
+            << pass["runs"].get<std::uint64_t>() << (pass["runs"] == 1 ? " run   " : " runs  ")
+            << pass["where"].get<std::string>() << "\n";
+    err << "frame " << report["frame_ms"].get<double>() << " ms";
+    if (report["error_pixels"].get<std::uint64_t>() > 0)
+        err << ", " << 100 * report["error_share"].get<double>() << " % of the pixels flagged";
+    std::uint64_t rays = 0;
+    for (const auto& [kind, count] : report["rays"].items())
+        rays += count.get<std::uint64_t>();
+    if (rays > 0)
+        err << ", " << shortNumber(static_cast<double>(rays)) << " rays by "
+            << report["backend"].get<std::string>() << " in "
+            << report["iterations"].get<std::uint64_t>()
+            << " iterations (stopped: " << report["stop"].get<std::string>() << ")";
+    err << "\n" << std::defaultfloat;
+}
+
+} // namespace
+
+int render(const RenderArguments& arguments, const Console& console) {
+    // Before any work: can the result be kept?
+    requireWritableDirectory(arguments.output_directory);
+    std::optional<tbb::global_control> threads;
+    if (arguments.threads > 0)
+        threads.emplace(tbb::global_control::max_allowed_parallelism,
+                        static_cast<std::size_t>(arguments.threads));
+
+    const InterruptGuard interrupts;
+    const std::unique_ptr<Stage> stage = makeStage(arguments, console);
+    const auto begin = std::chrono::steady_clock::now();
+    runWithProgress(*stage, arguments, console);
+    const double frame_ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+
+    const std::vector<std::string> paths =
+        writeOutputs(*stage->executor, arguments.output_directory,
+                     {{"hone.graph", stage->executor->graph().name},
+                      {"hone.scene", stage->scene.name},
+                      {"hone.seed", std::to_string(arguments.seed)},
+                      {"hone.version", HONE_VERSION}});
+    Json result = report(*stage, arguments, frame_ms, paths);
+    if (!arguments.reference.empty()) {
+        const Value& color = stage->executor->output("color");
+        const std::span<vec3> pixels = color.as<vec3>();
+        const ImageDifference difference =
+            compareImages({color.extent, {pixels.begin(), pixels.end()}, false},
+                          readRgb(arguments.reference, "color"));
+        result["reference"] = {{"mse", difference.mse},
+                               {"max", difference.max},
+                               {"differing_bits", difference.differing_bits}};
+        if (!arguments.quiet)
+            console.err << "against " << arguments.reference << ": mse " << difference.mse
+                        << ", max " << difference.max << ", differing bits "
+                        << difference.differing_bits << "\n";
+    }
+    if (!arguments.quiet) {
+        summarise(result, console);
+        for (const std::string& path : paths)
+            console.err << "wrote " << path << "\n";
+    }
+    if (arguments.json)
+        print(console.out, result);
+    if (const int signal = InterruptGuard::requested())
+        return signal;
+    return stage->session.validationMessages() == 0 ? kOk : kTargetNotMet;
+}
+
+} // namespace hone::cli

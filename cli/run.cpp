@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hone/cli/run.h"
+
+#include "hone/cli/progress.h"
+#include "hone/core/error.h"
+
+#include <csignal>
+#include <ostream>
+
+namespace hone::cli {
+namespace {
+
+volatile std::sig_atomic_t interrupt_signal = 0;
+using Handler = void (*)(int);
+Handler previous_int = SIG_DFL;
+Handler previous_term = SIG_DFL;
+
+void remember(int signal) {
+    interrupt_signal = signal;
+}
+
+} // namespace
+
+InterruptGuard::InterruptGuard() {
+    interrupt_signal = 0;
+    previous_int = std::signal(SIGINT, remember);
+    previous_term = std::signal(SIGTERM, remember);
+}
+
+InterruptGuard::~InterruptGuard() {
+    std::signal(SIGINT, previous_int);
+    std::signal(SIGTERM, previous_term);
+}
+
+int InterruptGuard::requested() {
+    return interrupt_signal == 0 ? 0 : 128 + interrupt_signal;
+}
+
+std::unique_ptr<Stage> makeStage(const RenderArguments& arguments, const Console& console) {
+    auto stage = std::make_unique<Stage>();
+    CompiledGraph graph =
+        loadGraph(findGraph(arguments.graph), stage->session.catalog(), arguments.overrides);
+    stage->scene = loadScene(arguments.scene);
+    for (const std::string& warning : stage->scene.warnings)
+        console.err << "warning: " << warning << "\n";
+    stage->camera = makeCamera(stage->scene.camera(arguments.camera));
+    stage->devices = stage->session.openDevices(arguments.device, arguments.validate);
+    if (stage->devices.raster == nullptr && !arguments.quiet)
+        console.err << "warning: no Vulkan device: " << stage->session.rasterProblem()
+                    << "; only graphs without raster passes can run\n";
+    stage->executor = std::make_unique<Executor>(std::move(graph), stage->session.catalog(),
+                                                 stage->devices, arguments.seed);
+    stage->executor->setScene(stage->scene);
+    stage->executor->setCamera(stage->camera);
+    stage->executor->setExtent(arguments.size);
+    return stage;
+}
+
+void runWithProgress(Stage& stage, const RenderArguments& arguments, const Console& console) {
+    Progress progress(console.err, console.err_is_terminal && !arguments.quiet,
+                      std::uint64_t{arguments.size.x} * arguments.size.y);
+    RunOptions options;
+    options.max_ms = arguments.max_ms;
+    options.max_rays = arguments.max_rays;
+    options.max_iterations = arguments.iterations;
+    options.on_iteration = [&](const LoopRecord& record) {
+        progress.show(record);
+        return InterruptGuard::requested() == 0;
+    };
+    stage.executor->run(options);
+}
+
+std::string backendOf(Executor& executor) {
+    const PlannedParam* param = executor.graph().findParam("backend");
+    return param == nullptr ? "" : executor.tracers().resolve(std::get<std::string>(param->value));
+}
+
+const Curve* findCurve(const Executor& executor) {
+    for (const std::string& name : executor.outputs())
+        if (const Curve* curve = executor.output(name).curve)
+            return curve;
+    return nullptr;
+}
+
+} // namespace hone::cli

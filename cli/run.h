@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hone/cli/commands.h"
+#include "hone/cli/session.h"
+
+#include <memory>
+
+namespace hone::cli {
+
+/// A graph, a scene and a camera made ready to run: what render, demo and bench have in common.
+struct Stage {
+    Session session;
+    Devices devices;
+    Scene scene;
+    Camera camera{};
+    std::unique_ptr<Executor> executor;
+};
+
+/// Loads and compiles the graph, loads the scene (its warnings go to console.err), opens devices.
+/// Throws what those throw.
+[[nodiscard]] std::unique_ptr<Stage> makeStage(const RenderArguments& arguments,
+                                               const Console& console);
+
+/// Turns SIGINT and SIGTERM into a request to stop while it lives.
+class InterruptGuard {
+public:
+    InterruptGuard();
+    ~InterruptGuard();
+    InterruptGuard(const InterruptGuard&) = delete;
+    InterruptGuard& operator=(const InterruptGuard&) = delete;
+    /// 0, or the exit code of the signal that came (130, 143).
+    [[nodiscard]] static int requested();
+};
+
+/// Runs with live progress; stops early when interrupted.
+void runWithProgress(Stage& stage, const RenderArguments& arguments, const Console& console);
+
+/// The tracer that the graph's parameter "backend" names, "auto" resolved; "" for a graph that has
+/// no such parameter.
+[[nodiscard]] std::string backendOf(Executor& executor);
+
+/// The curve of the first loop whose statistics are an output; null if there is none.
+[[nodiscard]] const Curve* findCurve(const Executor& executor);
+
+} // namespace hone::cli

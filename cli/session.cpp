@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hone/cli/session.h"
+
+#include "hone/backends/brute/brute_backend.h"
+#include "hone/backends/embree/embree_backend.h"
+#include "hone/backends/host/host_device.h"
+#include "hone/backends/vulkan/vulkan_device.h"
+#include "hone/core/error.h"
+#include "hone/core/log.h"
+#include "hone/passes/passes.h"
+
+namespace hone::cli {
+
+Session::Session() {
+    registerPasses(passes_);
+    trace_backends_.add("embree", "Embree on all cores", [] { return makeEmbreeBackend(); });
+    trace_backends_.add("brute", "every ray against every triangle: the reference, for tiny scenes",
+                        makeBruteBackend);
+}
+
+Devices Session::openDevices(const std::string& vulkan_name, bool validation) {
+    host_ = makeHostDevice();
+    if (vulkan_name == "none") {
+        raster_problem_ = "no Vulkan device was asked for (--device none)";
+        return {host_.get(), nullptr};
+    }
+    VulkanOptions options;
+    options.device = vulkan_name;
+    options.validation = validation;
+    options.on_message = [this](std::string_view message) {
+        ++validation_messages_;
+        logger().warn("validation: {}", message);
+    };
+    try {
+        vulkan_ = makeVulkanDevice(options);
+    } catch (const DeviceError& problem) {
+        // A device that was asked for by name must be there; otherwise graphs that do not rasterise
+        // still run.
+        if (!vulkan_name.empty() || validation)
+            throw;
+        raster_problem_ = problem.what();
+    }
+    return {host_.get(), vulkan_.get()};
+}
+
+} // namespace hone::cli

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hone/core/device/device.h"
+#include "hone/core/error.h"
+#include "hone/core/pass/pass.h"
+#include "hone/core/pass/pass_type.h"
+#include "hone/core/scene/scene_buffers.h"
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hone {
+
+/// One pass alone, without a graph: give it inputs by port name, execute it, look at its outputs.
+///
+///     PassRun run(combinePass());
+///     run.extent({2, 1}).param("mode", "max");
+///     run.plane<vec2>("errors", {{0.5f, 1.0f}, {0.0f, 0.0f}}, {2.0f}).execute();
+///     EXPECT_EQ(run.output<vec2>("error"), ...);
+///
+/// Outputs are made as an executor makes them: planes have the extent, lists and records what the
+/// pass's size rule says, zeroed; an output in place of an input is that input's memory (zeroed
+/// memory of its own when the input is not connected). They stay between executions, so the pass
+/// can be executed again with other inputs. Throws std::logic_error for ports that the pass does
+/// not have and for elements of another size.
+class PassRun {
+public:
+    /// On the host.
+    explicit PassRun(PassType type);
+    /// Kernels run on `device`, where the buffers live, too; it must outlive this.
+    PassRun(PassType type, Device& device);
+    PassRun(const PassRun&) = delete;
+    PassRun& operator=(const PassRun&) = delete;
+
+    /// Kernels run on the host after all, over the device's memory: what an executor chooses for a
+    /// software device.
+    PassRun& kernelsOnHost();
+    PassRun& extent(uvec2 size);
+    PassRun& seed(std::uint64_t value);
+    PassRun& iteration(uint value);
+    PassRun& param(std::string_view name, ParamValue value);
+
+    /// The scene (finished) and camera inputs must outlive this.
+    PassRun& scene(const Scene& scene);
+    PassRun& camera(const Camera& camera);
+    PassRun& tracers(const TraceBackendRegistry& registry);
+
+    /// Feeds a plane, one element a pixel. A second call on a port that takes several edges adds an
+    /// edge; on another port it replaces the content. `edge_params` in the order of
+    /// InPort::edge_params; missing ones are the defaults.
+    template <class T>
+    PassRun& plane(std::string_view port, const std::vector<T>& values,
+                   std::vector<ParamValue> edge_params = {}) {
+        feed(port, std::as_bytes(std::span(values)), sizeof(T), values.size(),
+             std::move(edge_params));
+        return *this;
+    }
+    /// Feeds a list with room for `capacity` elements (at least those given) or a record.
+    template <class T>
+    PassRun& list(std::string_view port, const std::vector<T>& values, std::size_t capacity = 0) {
+        feed(port, std::as_bytes(std::span(values)), sizeof(T), capacity, {});
+        return *this;
+    }
+    /// Feeds another pass's output; the memory is shared. Extent, for an input of type Extent.
+    PassRun& input(std::string_view port, const Value& value);
+
+    PassRun& execute();
+
+    /// The valid elements of an output after execute().
+    template <class T> [[nodiscard]] std::vector<T> output(std::string_view port) const {
+        const Value& found = value(port);
+        HONE_ASSERT(found.type->stride == sizeof(T), "another element: " + std::string(port));
+        const std::span<T> elements = found.as<T>();
+        return {elements.begin(), elements.end()};
+    }
+    [[nodiscard]] const Value& value(std::string_view port) const;
+    [[nodiscard]] std::uint64_t counter(std::string_view name) const { return counters_.get(name); }
+    void clearCounters() { counters_.clear(); }
+
+private:
+    struct Slot {
+        std::string port;
+        Value value;
+        Buffer memory;
+        std::vector<ParamValue> edge_params;
+    };
+    Slot& inputSlot(std::string_view port);
+    void feed(std::string_view port, std::span<const std::byte> bytes, std::size_t stride,
+              std::size_t capacity, std::vector<ParamValue> edge_params);
+    void prepareOutputs();
+
+    PassType type_;
+    std::unique_ptr<Device> host_;
+    Device* device_;
+    std::unique_ptr<RenderPass> pass_;
+    PassParams params_;
+    PassContext context_;
+    Counters counters_;
+    std::unique_ptr<SceneBuffers> scene_buffers_;
+    std::unique_ptr<Tracers> tracers_;
+    std::deque<Slot> inputs_; // values are pointed at, so they stay where they are
+    std::deque<Slot> outputs_;
+};
+
+} // namespace hone
