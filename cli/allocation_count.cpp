@@ -22,13 +22,18 @@ std::size_t atLeastOne(std::size_t bytes) {
 
 } // namespace
 
-// The standard's other forms (arrays, nothrow) call these.
+// The standard's array forms call these. The nothrow form is here too: sanitizers bring one of
+// their own, which would not match the delete below.
 void* operator new(std::size_t bytes) {
     return count(std::malloc(atLeastOne(bytes)));
 }
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
     const auto align = static_cast<std::size_t>(alignment);
     return count(std::aligned_alloc(align, (atLeastOne(bytes) + align - 1) / align * align));
+}
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+    allocations.fetch_add(1, std::memory_order_relaxed);
+    return std::malloc(atLeastOne(bytes));
 }
 void operator delete(void* memory) noexcept {
     std::free(memory);
