@@ -57,9 +57,10 @@ PassRun& PassRun::scene(const Scene& scene) {
 }
 
 PassRun& PassRun::camera(const Camera& camera) {
+    camera_ = camera;
     for (const InPort& port : type_.inputs)
         if (port.type.shape == Shape::kCamera)
-            inputSlot(port.name).value.camera = &camera;
+            inputSlot(port.name).value.camera = &camera_;
     return *this;
 }
 

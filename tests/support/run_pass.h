@@ -44,7 +44,7 @@ public:
     PassRun& iteration(uint value);
     PassRun& param(std::string_view name, ParamValue value);
 
-    /// The scene (finished) and camera inputs must outlive this.
+    /// The scene (finished) must outlive this; the camera is copied.
     PassRun& scene(const Scene& scene);
     PassRun& camera(const Camera& camera);
     PassRun& tracers(const TraceBackendRegistry& registry);
@@ -82,6 +82,7 @@ public:
     void clearCounters() { counters_.clear(); }
 
 private:
+    Camera camera_{};
     struct Slot {
         std::string port;
         Value value;
