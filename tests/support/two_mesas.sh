@@ -27,8 +27,10 @@ if [ ! -f "$manifest" ]; then
 
     # Apt with lists and caches of its own: the system's stay as they are.
     mkdir -p "$folder/lists/partial" "$folder/cache/archives/partial"
-    echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg]" \
-        "http://deb.debian.org/debian bookworm-backports main" >"$folder/sources.list"
+    site=$(apt-get indextargets --format '$(SITE)' 'Codename: bookworm' 'Created-By: Packages' | head -1)
+    [ -n "$site" ] || fail "apt knows no mirror of Debian 12; apt-get update first"
+    echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $site bookworm-backports main" \
+        >"$folder/sources.list"
     apt() {
         apt-get -qq -o Dir::Etc::sourcelist="$folder/sources.list" -o Dir::Etc::sourceparts=- \
             -o Dir::State::lists="$folder/lists" -o Dir::Cache="$folder/cache" \
