@@ -47,8 +47,9 @@ public:
         passes_.add(benchVisibilityPass());
         passes_.add(benchDepthOnlyPass());
         passes_.add(benchNoisePass());
-        tracers_.add("embree", "Embree on all cores",
-                     [this] { return makeRecordingTracer(makeEmbreeBackend(), rays_); });
+        tracers_.add("embree", "Embree on all cores", [this](const Devices&) {
+            return makeRecordingTracer(makeEmbreeBackend(), rays_);
+        });
         const Devices devices = session_.openDevices("", false);
         const Catalog catalog{&passes_, &tracers_};
         frame_ = std::make_unique<Executor>(makeBenchGraph(catalog), catalog, devices);
@@ -163,7 +164,7 @@ private:
         rays_.keeps_rays = true;
         runMoved(*frame_);
         rays_.keeps_rays = false;
-        const TraceBackend& backend = frame_->tracers().get("auto", scene_);
+        const TraceBackend& backend = frame_->tracers().get("auto", *frame_->find("$scene"));
         for (const RayList* list : rays_.lists()) {
             if (list->rays.empty())
                 continue;

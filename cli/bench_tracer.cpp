@@ -16,7 +16,10 @@ public:
         : inner_(std::move(inner)), record_(&record) {}
 
     TraceCaps caps() const override { return inner_->caps(); }
-    BuildStats build(const Scene& scene) override { return inner_->build(scene); }
+    BuildStats build(const Scene& scene, const SceneBuffers* shared) override {
+        return inner_->build(scene, shared);
+    }
+    BuildStats update(std::span<const uint> moved) override { return inner_->update(moved); }
 
     void closest(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence,
                  const TraceOptions& options) const override {

@@ -61,11 +61,16 @@ int doctor(const DoctorArguments& arguments, const Console& console) {
     say("validation layer", validation, validation_detail,
         "apt install vulkan-validationlayers (only tests and --validate need it)");
 
-    const Session session;
+    Session session;
+    Devices on;
+    try {
+        on = session.openDevices("", false);
+    } catch (const DeviceError&) { // said above
+    }
     for (const std::string& name : session.traceBackends().names()) {
         try {
-            const TraceCaps caps = session.traceBackends().create(name)->caps();
-            say("trace backend", true, caps.name + " " + caps.version, "");
+            const TraceCaps caps = session.traceBackends().create(name, on)->caps();
+            say("trace backend", true, caps.name + " " + caps.version + " on " + caps.runs_on, "");
         } catch (const DeviceError& problem) {
             say("trace backend", false, name + ": " + problem.what(), "");
         }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/cli/session.h"
 
-#include "hone/backends/brute/brute_backend.h"
-#include "hone/backends/embree/embree_backend.h"
+#include "hone/backends/backends.h"
 #include "hone/backends/host/host_device.h"
 #include "hone/backends/vulkan/vulkan_device.h"
 #include "hone/core/error.h"
@@ -13,9 +12,7 @@ namespace hone::cli {
 
 Session::Session() {
     registerPasses(passes_);
-    trace_backends_.add("embree", "Embree on all cores", [] { return makeEmbreeBackend(); });
-    trace_backends_.add("brute", "every ray against every triangle: the reference, for tiny scenes",
-                        makeBruteBackend);
+    registerTraceBackends(trace_backends_);
 }
 
 Devices Session::openDevices(const std::string& vulkan_name, bool validation) {

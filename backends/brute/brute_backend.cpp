@@ -58,11 +58,17 @@ std::optional<Crossing> cross(const dvec3& origin, const dvec3& direction,
 class BruteBackend final : public TraceBackend {
 public:
     TraceCaps caps() const override {
-        return {.name = "brute", .version = "1", .masked = true, .always_exact = true};
+        return {.name = "brute",
+                .version = "1",
+                .runs_on = "host",
+                .always_exact = true,
+                .settles_ties = true,
+                .is_reference = true};
     }
 
-    BuildStats build(const Scene& scene) override {
+    BuildStats build(const Scene& scene, const SceneBuffers*) override {
         const auto begin = std::chrono::steady_clock::now();
+        scene_ = &scene;
         surface_.emplace(scene);
         triangles_.clear();
         for (uint i = 0; i < scene.instances.size(); ++i)
@@ -73,6 +79,8 @@ public:
                 .triangles = triangles_.size(),
                 .bytes = triangles_.size() * sizeof(WorldTriangle)};
     }
+
+    BuildStats update(std::span<const uint>) override { return build(*scene_, nullptr); }
 
     void closest(std::span<const Ray> rays, std::span<Hit> hits, Coherence,
                  const TraceOptions&) const override {
@@ -139,6 +147,7 @@ private:
                });
     }
 
+    const Scene* scene_ = nullptr;
     std::optional<HostSurface> surface_;
     std::vector<WorldTriangle> triangles_;
 };

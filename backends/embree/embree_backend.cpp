@@ -119,18 +119,23 @@ public:
     explicit EmbreeBackend(const EmbreeParams& params) : params_(params) {}
 
     TraceCaps caps() const override {
-        return {
-            .name = "embree", .version = RTC_VERSION_STRING, .masked = true, .always_exact = false};
+        return {.name = "embree",
+                .version = RTC_VERSION_STRING,
+                .runs_on = "host",
+                .settles_ties = true};
     }
 
-    BuildStats build(const Scene& scene) override {
+    BuildStats build(const Scene& scene, const SceneBuffers*) override {
         const auto begin = std::chrono::steady_clock::now();
+        scene_ = &scene;
         tree_.reset(); // the old tree's memory first
         tree_ = std::make_unique<EmbreeTree>(device_, scene, params_.flatten_triangles);
         const std::chrono::duration<double, std::milli> passed =
             std::chrono::steady_clock::now() - begin;
         return {.ms = passed.count(), .triangles = tree_->triangles(), .bytes = device_.bytes()};
     }
+
+    BuildStats update(std::span<const uint>) override { return build(*scene_, nullptr); }
 
     void closest(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence,
                  const TraceOptions& options) const override {
@@ -158,6 +163,7 @@ private:
 
     EmbreeParams params_;
     EmbreeDevice device_;
+    const Scene* scene_ = nullptr;
     std::unique_ptr<EmbreeTree> tree_;
 };
 

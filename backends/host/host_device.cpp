@@ -79,6 +79,12 @@ public:
                 {reinterpret_cast<std::uint64_t>(data), 0, std::max<std::size_t>(bytes, 4), data}};
     }
 
+    /// Kernels of the host take any bytes.
+    BufferView viewOf(std::span<const std::byte> bytes) const override {
+        auto* data = const_cast<std::byte*>(bytes.data()); // whoever binds it says what is written
+        return {reinterpret_cast<std::uint64_t>(data), 0, bytes.size(), data};
+    }
+
     ImageHandle createImage(const ImageDesc&) override { cannotRaster(); }
     PipelineHandle createRasterPipeline(const RasterPipelineDesc&) override { cannotRaster(); }
     void destroy(ImageHandle) override {}

@@ -38,7 +38,7 @@ OwnedBuffer createBuffer(const VulkanContext& context, std::size_t bytes, const 
 
 VulkanBuffer::VulkanBuffer(const VulkanContext& context, VulkanMemory& memory, std::size_t bytes,
                            std::string_view name)
-    : memory_(&memory) {
+    : memory_(&memory), bytes_(bytes) {
     const std::string about(name);
     buffer_ = createBuffer(context, bytes, about.c_str());
     VkMemoryRequirements needs{};

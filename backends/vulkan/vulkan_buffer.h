@@ -15,16 +15,18 @@ public:
                  std::string_view name);
     VulkanBuffer(VulkanBuffer&& other) noexcept
         : memory_(std::exchange(other.memory_, nullptr)), range_(other.range_),
-          buffer_(std::move(other.buffer_)) {}
+          bytes_(other.bytes_), buffer_(std::move(other.buffer_)) {}
     VulkanBuffer& operator=(VulkanBuffer&&) = delete;
     ~VulkanBuffer();
 
     [[nodiscard]] VkBuffer handle() const { return buffer_.handle(); }
     [[nodiscard]] std::byte* data() const { return range_.data; }
+    [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
 private:
     VulkanMemory* memory_;
     MemoryRange range_;
+    std::size_t bytes_ = 0;
     OwnedBuffer buffer_;
 };
 

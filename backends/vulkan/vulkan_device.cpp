@@ -29,6 +29,18 @@ public:
         return {*this, {resources_.buffers.add(std::move(buffer)), 0, size, data}};
     }
 
+    BufferView viewOf(std::span<const std::byte> bytes) const override {
+        BufferView found;
+        resources_.buffers.forEach([&](std::uint64_t handle, const VulkanBuffer& buffer) {
+            if (bytes.data() < buffer.data() ||
+                bytes.data() + bytes.size() > buffer.data() + buffer.bytes())
+                return;
+            const auto offset = static_cast<std::size_t>(bytes.data() - buffer.data());
+            found = {handle, offset, bytes.size(), buffer.data() + offset};
+        });
+        return found;
+    }
+
     ImageHandle createImage(const ImageDesc& desc) override {
         return ImageHandle{
             resources_.images.add(VulkanImage(resources_.context, resources_.memory, desc))};

@@ -39,6 +39,13 @@ public:
         return *slots_[index].object;
     }
 
+    /// Calls visit(handle, object) for each that is alive.
+    template <class Visit> void forEach(const Visit& visit) const {
+        for (std::size_t i = 0; i < slots_.size(); ++i)
+            if (slots_[i].object.has_value())
+                visit((std::uint64_t{slots_[i].generation} << 32) | (i + 1), *slots_[i].object);
+    }
+
     void retire(std::uint64_t handle, std::string_view what) {
         T& object = get(handle, what);
         retired_.push_back(std::move(object));

@@ -126,6 +126,9 @@ public:
 
     /// A mapped linear buffer, zeroed. `bytes` 0 is rounded up to one word.
     [[nodiscard]] virtual Buffer createBuffer(std::size_t bytes, std::string_view name) = 0;
+    /// These bytes of the host as a stretch of one of this device's buffers; empty (data null) if
+    /// they lie in none.
+    [[nodiscard]] virtual BufferView viewOf(std::span<const std::byte> bytes) const = 0;
     [[nodiscard]] virtual ImageHandle createImage(const ImageDesc& desc) = 0;
     [[nodiscard]] virtual PipelineHandle createRasterPipeline(const RasterPipelineDesc& desc) = 0;
     virtual void destroy(ImageHandle image) = 0;

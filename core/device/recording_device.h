@@ -22,6 +22,7 @@ public:
 
     [[nodiscard]] const DeviceInfo& info() const override { return info_; }
     [[nodiscard]] Buffer createBuffer(std::size_t bytes, std::string_view name) override;
+    [[nodiscard]] BufferView viewOf(std::span<const std::byte>) const override { return {}; }
     [[nodiscard]] ImageHandle createImage(const ImageDesc& desc) override;
     [[nodiscard]] PipelineHandle createRasterPipeline(const RasterPipelineDesc& desc) override;
     void destroy(ImageHandle) override {}

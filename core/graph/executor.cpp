@@ -13,12 +13,11 @@ namespace hone {
 Executor::State::State(CompiledGraph the_graph, const Catalog& the_catalog, Devices the_devices,
                        std::uint64_t the_seed)
     : graph(std::move(the_graph)), catalog(the_catalog), devices(the_devices), seed(the_seed),
-      memory(devices.raster != nullptr ? devices.raster : devices.host),
-      host(&devices.host->encoder()),
+      memory(&devices.memory()), host(&devices.host->encoder()),
       device(devices.raster != nullptr ? &devices.raster->encoder() : nullptr),
       kernels(device != nullptr && !devices.raster->info().is_software ? device : host),
       values(graph.values.size()), memories(graph.memories.size()), loops(graph.loops.size()),
-      tracers(*catalog.trace_backends), nodes(graph.nodes.size()) {
+      tracers(*catalog.trace_backends, devices), nodes(graph.nodes.size()) {
     for (ValueId id = 0; id < values.size(); ++id)
         values[id].type = &graph.values[id].type;
     for (std::size_t i = 0; i < loops.size(); ++i) {

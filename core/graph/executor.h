@@ -13,13 +13,6 @@
 
 namespace hone {
 
-/// The devices a graph runs on. They must outlive the executor.
-struct Devices {
-    Device* host = nullptr; ///< runs kernels on all cores; always there
-    Device* raster =
-        nullptr; ///< Vulkan; null where there is none: graphs that rasterise then throw DeviceError
-};
-
 /// Limits and callbacks of one run; zero is no limit. They come on top of the graph's own stop
 /// rules and are looked at after each iteration of an outermost loop. A loop that one of them cut
 /// goes on in the next run; if something that it depends on changed, it begins anew.

@@ -72,9 +72,14 @@ void Executor::State::prepareInputs() {
         HONE_ASSERT(scene != nullptr, "the graph reads a scene: setScene() comes before run()");
         if (scene_version != scene->version) {
             finishDevice();
-            scene_buffers.reset(); // first, so that not both need memory at once
-            scene_buffers.emplace(*memory, *scene);
+            if (scene_buffers && scene_shape_version == scene->shape_version) {
+                scene_buffers->update(*scene);
+            } else {
+                scene_buffers.reset(); // first, so that not both need memory at once
+                scene_buffers.emplace(*memory, *scene);
+            }
             scene_version = scene->version;
+            scene_shape_version = scene->shape_version;
         }
         // Scene versions are unique in the process, so they need no translation into ours.
         value.scene = scene;

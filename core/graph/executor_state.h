@@ -96,7 +96,8 @@ struct Executor::State {
     bool is_device_pending = false;
 
     const Scene* scene = nullptr;
-    std::uint64_t scene_version = 0; ///< of scene_buffers
+    std::uint64_t scene_version = 0;       ///< of scene_buffers
+    std::uint64_t scene_shape_version = 0; ///< the same
     std::optional<SceneBuffers> scene_buffers;
     std::optional<Camera> camera;
     uvec2 extent{0, 0};

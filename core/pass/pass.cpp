@@ -87,6 +87,16 @@ std::uint64_t Counters::get(std::string_view name) const {
     return found != items_.end() ? found->value : 0;
 }
 
+/// Which of the instances were placed elsewhere, ascending.
+static std::vector<uint> movedInstances(const std::vector<Instance>& before,
+                                        const std::vector<Instance>& now) {
+    std::vector<uint> moved;
+    for (uint i = 0; i < now.size(); ++i)
+        if (std::memcmp(&before[i], &now[i], sizeof(Instance)) != 0)
+            moved.push_back(i);
+    return moved;
+}
+
 std::string Tracers::resolve(std::string_view backend) const {
     if (backend != "auto")
         return std::string(backend);
@@ -94,18 +104,28 @@ std::string Tracers::resolve(std::string_view backend) const {
 }
 
 std::unique_ptr<TraceBackend> Tracers::make(std::string_view backend) const {
-    return registry_->create(resolve(backend));
+    return registry_->create(resolve(backend), devices_);
 }
 
-TraceBackend& Tracers::get(std::string_view backend, const Scene& scene) {
+TraceBackend& Tracers::get(std::string_view backend, const Value& scene_value) {
+    const Scene& scene = *scene_value.scene;
     const std::string resolved = resolve(backend);
     auto found = std::ranges::find(built_, resolved, &Built::name);
     if (found == built_.end())
-        found = built_.insert(built_.end(), {resolved, registry_->create(resolved), 0});
-    if (found->version != scene.version) {
-        found->backend->build(scene);
-        found->version = scene.version;
-    }
+        found = built_.insert(built_.end(), Built{.name = resolved, .backend = make(resolved)});
+    if (found->version == scene.version)
+        return *found->backend;
+
+    // If it fails halfway, the next call builds anew.
+    const bool only_moved = found->version != 0 && found->shape_version == scene.shape_version;
+    found->version = 0;
+    if (only_moved)
+        found->backend->update(movedInstances(found->instances, scene.instances));
+    else
+        found->backend->build(scene, scene_value.scene_buffers);
+    found->version = scene.version;
+    found->shape_version = scene.shape_version;
+    found->instances = scene.instances;
     return *found->backend;
 }
 

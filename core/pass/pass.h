@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hone/core/device/device.h"
+#include "hone/core/device/devices.h"
 #include "hone/core/pass/param.h"
 #include "hone/core/pass/value.h"
 #include "hone/core/trace/trace_backend.h"
@@ -65,10 +65,11 @@ private:
 /// Gives out trace backends that are built for a scene; owned by the executor.
 class Tracers {
 public:
-    explicit Tracers(const TraceBackendRegistry& registry) : registry_(&registry) {}
-    /// The backend of that name ("auto" = the preferred one), built for the scene's current
-    /// version.
-    [[nodiscard]] TraceBackend& get(std::string_view backend, const Scene& scene);
+    Tracers(const TraceBackendRegistry& registry, const Devices& devices)
+        : registry_(&registry), devices_(devices) {}
+    /// The backend of that name ("auto" = the preferred one), built for the current version of a
+    /// value of type Scene. Where only instances moved since, it is updated.
+    [[nodiscard]] TraceBackend& get(std::string_view backend, const Value& scene);
     /// A backend of that name for the caller alone, not built: to ask about another scene than the
     /// graph's.
     [[nodiscard]] std::unique_ptr<TraceBackend> make(std::string_view backend) const;
@@ -80,8 +81,11 @@ private:
         std::string name;
         std::unique_ptr<TraceBackend> backend;
         std::uint64_t version = 0;
+        std::uint64_t shape_version = 0;
+        std::vector<Instance> instances; ///< as they were placed then
     };
     const TraceBackendRegistry* registry_;
+    Devices devices_;
     std::vector<Built> built_;
 };
 

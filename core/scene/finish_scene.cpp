@@ -4,6 +4,7 @@
 #include "hone/core/scene/scene.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace hone {
@@ -189,6 +190,11 @@ CameraDesc defaultCamera(const Bounds& bounds) {
     return camera;
 }
 
+std::uint64_t nextVersion() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
 } // namespace
 
 void finishScene(Scene& scene) {
@@ -222,6 +228,27 @@ void finishScene(Scene& scene) {
     scene.instance_names.resize(scene.instances.size());
     scene.material_names.resize(scene.materials.size());
     touch(scene);
+}
+
+void touch(Scene& scene) {
+    scene.version = nextVersion();
+    scene.shape_version = scene.version;
+}
+
+void moveInstance(Scene& scene, uint index, const mat4x3& to_world) {
+    checkIndex(scene, "moveInstance", "instance", index, scene.instances.size());
+    for (int column = 0; column < 4; ++column)
+        if (!isFinite(to_world[column]))
+            fail(scene, "instance " + std::to_string(index) + ": its transform is not finite");
+    Instance& instance = scene.instances[index];
+    instance.to_world = to_world;
+    orient(instance);
+    const Bounds box = instanceBounds(instance, meshBounds(scene, scene.meshes[instance.mesh]));
+    if (!box.empty()) {
+        scene.bounds.add(box.low);
+        scene.bounds.add(box.high);
+    }
+    scene.version = nextVersion();
 }
 
 } // namespace hone

@@ -6,7 +6,6 @@
 #include "hone/core/scene/gltf.h"
 #include "hone/core/scene/scene_file.h"
 
-#include <atomic>
 #include <cmath>
 
 namespace hone {
@@ -86,11 +85,6 @@ std::size_t Scene::instancedTriangles() const {
     for (const Instance& instance : instances)
         total += meshes[instance.mesh].triangle_count;
     return total;
-}
-
-void touch(Scene& scene) {
-    static std::atomic<std::uint64_t> last_version{0};
-    scene.version = ++last_version;
 }
 
 Scene loadScene(const std::string& name) {

@@ -63,6 +63,8 @@ struct Scene {
     /// Changes whenever anything that a pass may read changed. Never 0 after finishScene; unique in
     /// the process.
     std::uint64_t version = 0;
+    /// The version at which anything but the placement of instances last changed.
+    std::uint64_t shape_version = 0;
 
     /// The camera of that name; the first for "". Throws SceneError that lists the names.
     [[nodiscard]] const CameraDesc& camera(std::string_view camera_name) const;
@@ -77,6 +79,11 @@ void finishScene(Scene& scene);
 
 /// Marks the scene as changed (a moved light, an edited material).
 void touch(Scene& scene);
+
+/// Places an instance of a finished scene elsewhere: its matrices, its winding, the scene's bounds
+/// (which only grow) and version. Probes stay where they are. Tracers and buffers follow without
+/// being made anew. Throws SceneError if a number of the matrix is not finite.
+void moveInstance(Scene& scene, uint instance, const mat4x3& to_world);
 
 /// Opens "builtin:NAME", a *.scene.json, or a .gltf / .glb. Throws SceneError (bad content, missing
 /// file).

@@ -43,6 +43,12 @@ SceneBuffers::SceneBuffers(Device& device, const Scene& scene) {
     add("scene_environment", std::span<const Environment>(&scene.environment, 1));
 }
 
+void SceneBuffers::update(const Scene& scene) {
+    const std::span<const Instance> instances(scene.instances);
+    if (!instances.empty())
+        std::memcpy(find("scene_instances").data, instances.data(), instances.size_bytes());
+}
+
 BufferView SceneBuffers::find(std::string_view name) const {
     for (const Argument& argument : arguments_)
         if (argument.name == name)

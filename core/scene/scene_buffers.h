@@ -20,6 +20,8 @@ class SceneBuffers {
 public:
     /// Copies the arrays of `scene` (finished) to `device`. Throws OutOfMemory, DeviceError.
     SceneBuffers(Device& device, const Scene& scene);
+    /// Follows instances that moved (moveInstance); no work that reads them may be pending.
+    void update(const Scene& scene);
     [[nodiscard]] std::span<const Argument> arguments() const { return arguments_; }
     [[nodiscard]] BufferView find(std::string_view name) const;
     [[nodiscard]] std::size_t bytes() const;

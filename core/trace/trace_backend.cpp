@@ -28,11 +28,12 @@ bool TraceBackendRegistry::contains(std::string_view name) const {
     return std::ranges::any_of(entries_, [&](const Entry& entry) { return entry.name == name; });
 }
 
-std::unique_ptr<TraceBackend> TraceBackendRegistry::create(std::string_view name) const {
+std::unique_ptr<TraceBackend> TraceBackendRegistry::create(std::string_view name,
+                                                           const Devices& devices) const {
     auto found =
         std::ranges::find_if(entries_, [&](const Entry& entry) { return entry.name == name; });
     HONE_ASSERT(found != entries_.end(), "no trace backend is called " + std::string(name));
-    return found->factory();
+    return found->factory(devices);
 }
 
 } // namespace hone

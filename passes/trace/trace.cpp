@@ -109,7 +109,7 @@ public:
             return;
 
         const TraceBackend& backend =
-            context.tracers->get(context.param<std::string>("backend"), scene);
+            context.tracers->get(context.param<std::string>("backend"), context.scene());
         for (Wave wave; wave.first_request < requests.size();
              wave.first_request += wave.requests, wave.first_slot += wave.paths) {
             findEnd(wave, requests, *context.memory);

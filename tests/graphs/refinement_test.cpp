@@ -23,7 +23,7 @@ protected:
         if (IsSkipped())
             return;
         registerPasses(passes_);
-        tracers_.add("embree", "", [] { return makeEmbreeBackend(); });
+        tracers_.add("embree", "", [](const Devices&) { return makeEmbreeBackend(); });
         host_ = makeHostDevice();
         scene_ = loadScene("builtin:" + GetParam());
         camera_ = makeCamera(scene_.camera(""));

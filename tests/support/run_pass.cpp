@@ -65,7 +65,7 @@ PassRun& PassRun::camera(const Camera& camera) {
 }
 
 PassRun& PassRun::tracers(const TraceBackendRegistry& registry) {
-    tracers_ = std::make_unique<Tracers>(registry);
+    tracers_ = std::make_unique<Tracers>(registry, Devices{device_, nullptr});
     return *this;
 }
 

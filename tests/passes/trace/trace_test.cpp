@@ -52,7 +52,7 @@ const Camera kDown = cameraAt({0, 1, 0}, {0, -1, 0}, {0, 0, -1});
 
 TraceBackendRegistry bruteOnly() {
     TraceBackendRegistry registry;
-    registry.add("brute", "every triangle", makeBruteBackend);
+    registry.add("brute", "every triangle", [](const Devices&) { return makeBruteBackend(); });
     return registry;
 }
 

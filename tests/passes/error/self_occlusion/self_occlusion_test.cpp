@@ -19,7 +19,7 @@ Material mirror() {
 
 std::vector<float> occlusionOf(const Scene& scene, uint rays) {
     TraceBackendRegistry registry;
-    registry.add("brute", "the reference", [] { return makeBruteBackend(); });
+    registry.add("brute", "the reference", [](const Devices&) { return makeBruteBackend(); });
     PassRun run(selfOcclusionPass());
     run.scene(scene).tracers(registry).param("rays", rays).execute();
     return run.output<float>("occlusion");
