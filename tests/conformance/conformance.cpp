@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/tests/conformance/conformance.h"
 
+#include "hone/core/error.h"
+
 #include <algorithm>
 #include <ostream>
 
@@ -29,10 +31,16 @@ void addTracer(TracerUnderTest tracer) {
     tracers().push_back(std::move(tracer));
 }
 
+void TracerConformance::SetUp() {
+    try {
+        tracer_ = GetParam().make();
+    } catch (const DeviceError& problem) {
+        GTEST_SKIP() << problem.what();
+    }
+}
+
 void TracerConformance::build(Scene scene) {
     scene_ = std::move(scene);
-    if (tracer_ == nullptr)
-        tracer_ = GetParam().make();
     tracer_->build(scene_);
 }
 

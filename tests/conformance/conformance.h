@@ -18,8 +18,13 @@ namespace hone::test {
 /// A tracer that the suite runs on.
 struct TracerUnderTest {
     std::string name; ///< letters, digits and _
+    /// May throw DeviceError where the machine lacks what it needs: its cases are skipped then,
+    /// with that reason.
     std::function<std::unique_ptr<TraceBackend>()> make;
     bool is_brute = false; ///< tests every triangle: gets smaller scenes
+    bool is_slow = false;  ///< answers few rays a second, or takes long for each list: gets fewer
+    /// The device whose buffers its lists may lie in; empty: none.
+    std::function<Device*()> memory = {};
 };
 
 /// Adds a tracer to the suite; call it before testing::InitGoogleTest. A tracer that lives
@@ -39,6 +44,9 @@ protected:
                                       {Coherence::kIncoherent, {false}},
                                       {Coherence::kIncoherent, {true}}};
 
+    /// Makes the tracer.
+    void SetUp() override;
+
     /// Keeps the scene and builds the tracer for it.
     void build(Scene scene);
     void build(const SceneBuilder& builder) { build(builder.finish()); }
@@ -51,6 +59,11 @@ protected:
     [[nodiscard]] bool occluded(const Ray& ray) const;
     /// The answers in all modes, for rays that may have several right answers.
     [[nodiscard]] std::vector<Hit> closestInAllModes(const Ray& ray) const;
+
+    /// As many rays as `count`, or a sixteenth of them where the tracer is slow.
+    [[nodiscard]] static std::size_t rayCount(std::size_t count) {
+        return GetParam().is_slow ? count / 16 : count;
+    }
 
     Scene scene_;
     std::unique_ptr<TraceBackend> tracer_;

@@ -93,7 +93,7 @@ TEST_P(TracerConformance, LetsAlmostNoRayThroughASharedEdge) {
     build(builder);
     std::mt19937 random(1);
     std::uniform_real_distribution<float> unit(0, 1);
-    std::vector<Ray> rays(100'000);
+    std::vector<Ray> rays(rayCount(100'000));
     for (Ray& ray : rays) {
         const float s = 0.01f + 0.98f * unit(random);
         const vec3 target = glm::mix(vec3(-1.1f, -0.7f, 0.13f), vec3(0.9f, 1.7f, 0.31f), s);

@@ -75,7 +75,7 @@ TEST_P(TracerConformance, AnswersListsOfEveryLength) {
 TEST_P(TracerConformance, AnswersAMillionRays) {
     const uint side = GetParam().is_brute ? 2 : 60;
     build(grid(side));
-    const std::vector<GridRay> all = gridRays(1'000'003, side);
+    const std::vector<GridRay> all = gridRays(rayCount(1'000'000) + 3, side);
     std::vector<Ray> rays;
     for (const GridRay& ray : all)
         rays.push_back(ray.ray);
@@ -130,7 +130,7 @@ std::vector<Ray> cameraRays(uint width, uint height) {
 
 TEST_P(TracerConformance, AnswersEachRayAlikeInAnyOrderAndCompany) {
     build(soup(GetParam().is_brute ? 200 : 5000, 3));
-    const std::vector<Ray> rays = cameraRays(200, 150);
+    const std::vector<Ray> rays = GetParam().is_slow ? cameraRays(50, 38) : cameraRays(200, 150);
     std::vector<uint> order(rays.size());
     std::iota(order.begin(), order.end(), 0u);
     std::ranges::shuffle(order, std::mt19937(5));
@@ -141,7 +141,7 @@ TEST_P(TracerConformance, AnswersEachRayAlikeInAnyOrderAndCompany) {
 
     const std::vector<Hit> hits = closestOf(rays, kModes[0]);
     const std::vector<uint> occluded = occludedOf(rays, kModes[0]);
-    EXPECT_GT(std::ranges::count(occluded, 1u), 1000);
+    EXPECT_GT(static_cast<std::size_t>(std::ranges::count(occluded, 1u)), rays.size() / 30);
     for (const Mode& mode : kModes) {
         EXPECT_EQ(closestOf(rays, mode), hits);
         EXPECT_EQ(occludedOf(rays, mode), occluded);
@@ -163,7 +163,7 @@ TEST_P(TracerConformance, AnswersExactlyWhateverTheCompany) {
     std::mt19937 random(9);
     std::uniform_real_distribution<float> along(0, static_cast<float>(side));
     std::vector<Ray> rays;
-    for (int i = 0; i < 20'000; ++i) {
+    for (std::size_t i = 0; i < rayCount(20'000); ++i) {
         const float x = along(random);
         const vec3 origin(along(random), along(random), 3);
         rays.push_back(rayTo(origin, {x, i % 2 == 0 ? x : std::floor(x), 0}));
