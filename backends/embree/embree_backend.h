@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hone/core/trace/instancing.h"
 #include "hone/core/trace/trace_backend.h"
 
 namespace hone {
@@ -9,7 +10,7 @@ struct EmbreeParams {
     /// Triangles that copies of meshes may add to the flat tree, all meshes together (about 100
     /// bytes each). Meshes beyond it, those whose copies add most, get a tree of their own and are
     /// instanced: less memory, slower.
-    std::size_t flatten_triangles = 2'000'000;
+    std::size_t flatten_triangles = kFlattenTriangles;
 };
 
 /// Embree (3 or 4, whichever it was built with) on all cores.
