@@ -2,6 +2,7 @@
 #include "hone/core/scene/gltf.h"
 
 #include "hone/core/error.h"
+#include "hone/core/printable.h"
 #include "hone/core/scene/gltf_geometry.h"
 #include "hone/core/scene/gltf_materials.h"
 

@@ -3,6 +3,7 @@
 
 #include "hone/core/error.h"
 #include "hone/core/image/image.h"
+#include "hone/core/printable.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,6 +2,7 @@
 #include "hone/core/scene/gltf_geometry.h"
 
 #include "hone/core/error.h"
+#include "hone/core/printable.h"
 #include "hone/core/scene/gltf_accessor.h"
 
 #include <cmath>

@@ -3,6 +3,7 @@
 
 #include "hone/core/error.h"
 #include "hone/core/image/decode.h"
+#include "hone/core/printable.h"
 #include "hone/core/scene/mipmap.h"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 
 #include "hone/core/error.h"
 #include "hone/core/image/image.h"
+#include "hone/core/printable.h"
 
 #include <algorithm>
 #include <array>
@@ -138,14 +139,6 @@ std::vector<std::byte> ModelFolder::read(std::string_view uri) const {
     if (fs::file_size(file, error) > kMaxFileBytes)
         throw InputError("larger than 2 GiB");
     return readFile(file.string());
-}
-
-std::string printable(std::string_view text) {
-    std::string shown(text.substr(0, 256));
-    for (char& c : shown)
-        if (static_cast<unsigned char>(c) < 32 || c == 127)
-            c = '?';
-    return shown;
 }
 
 } // namespace hone

@@ -26,8 +26,4 @@ private:
     std::filesystem::path folder_;
 };
 
-/// Text from a file as it may be shown to a person: control bytes become '?', and it is cut after
-/// 256 bytes.
-[[nodiscard]] std::string printable(std::string_view text);
-
 } // namespace hone

@@ -4,6 +4,7 @@
 #include "hone/core/error.h"
 #include "hone/core/graph/diagnostics.h"
 #include "hone/core/image/image.h"
+#include "hone/core/printable.h"
 #include "hone/core/scene/builtin_scenes.h"
 #include "hone/core/scene/gltf.h"
 #include "hone/core/scene/model_folder.h"
