@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/core/trace/explain_difference.h"
 
-#include "hone/core/scene/model_folder.h"
+#include "hone/core/printable.h"
 
 #include <algorithm>
 #include <charconv>
