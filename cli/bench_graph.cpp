@@ -7,9 +7,19 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 
 namespace hone::cli {
+
+std::string defaultBenchScene() {
+    namespace fs = std::filesystem;
+    const fs::path sponza = fs::path(HONE_SOURCE_DIR) / "tests/scenes/sponza.scene.json";
+    const fs::path model = fs::path(HONE_SOURCE_DIR) / "../shared/scenes/sponza/sponza.gltf";
+    std::error_code ignored;
+    const bool is_there = fs::exists(sponza, ignored) && fs::exists(model, ignored);
+    return is_there ? sponza.string() : "builtin:atrium";
+}
 
 CompiledGraph makeBenchGraph(const Catalog& catalog) {
     using Json = nlohmann::ordered_json;

@@ -3,12 +3,16 @@
 
 #include "hone/core/graph/compiled_graph.h"
 
+#include <string>
 #include <string_view>
 
 namespace hone::cli {
 
 /// Pixels of a batch, of the selection and of the refinement that are timed.
 inline constexpr uint kBenchBatch = 8192;
+
+/// Sponza where it is there, else builtin:atrium.
+[[nodiscard]] std::string defaultBenchScene();
 
 /// sir.json with what else is to be timed in the same frame: nodes "visibility", "depth_only",
 /// "noise" (bench_passes.h), "select" and "radix" (sort, over the noisy errors), "tonemap". Throws

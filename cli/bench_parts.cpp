@@ -24,7 +24,6 @@
 #include "hone/passes/passes.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <ostream>
 
@@ -279,16 +278,8 @@ private:
 
 int benchParts(const BenchPartsArguments& arguments, const Console& console) {
     BenchPartsArguments chosen = arguments;
-    if (chosen.scene.empty()) {
-        const std::filesystem::path sponza =
-            std::filesystem::path(HONE_SOURCE_DIR) / "tests/scenes/sponza.scene.json";
-        const std::filesystem::path model =
-            std::filesystem::path(HONE_SOURCE_DIR) / "../shared/scenes/sponza/sponza.gltf";
-        std::error_code ignored;
-        const bool is_there =
-            std::filesystem::exists(sponza, ignored) && std::filesystem::exists(model, ignored);
-        chosen.scene = is_there ? sponza.string() : "builtin:atrium";
-    }
+    if (chosen.scene.empty())
+        chosen.scene = defaultBenchScene();
     PartsBench bench(chosen, console);
     const BenchTable table = bench.run();
     if (chosen.json)

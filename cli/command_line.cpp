@@ -224,6 +224,25 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
         command = [&] { return benchParts(bench_arguments, console); };
     });
 
+    BenchTracersArguments tracers_arguments;
+    CLI::App* tracers_app = bench_app->add_subcommand(
+        "tracers", "every trace backend on the rays of one frame, by kind of ray");
+    tracers_app->add_option("--scene", tracers_arguments.scene,
+                            "scene (Sponza where it is there, else builtin:atrium)");
+    tracers_app->add_option("--camera", tracers_arguments.camera, "a camera of the scene");
+    addSize(tracers_app, "--size", tracers_arguments.size, "size of the frame (800x600)");
+    tracers_app
+        ->add_option("--backends", tracers_arguments.backends,
+                     "which to measure (all that work here); the first is compared with")
+        ->delimiter(',');
+    tracers_app
+        ->add_option("--repeats", tracers_arguments.repeats,
+                     "runs of each measurement; the median counts")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    tracers_app->add_flag("--json", tracers_arguments.json, "one JSON object on standard output");
+    chosen(tracers_app, [&] { return benchTracers(tracers_arguments, console); });
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {

@@ -89,6 +89,15 @@ struct BenchPartsArguments {
     bool json = false;
 };
 
+struct BenchTracersArguments {
+    std::string scene;
+    std::string camera;
+    uvec2 size{800, 600};
+    std::vector<std::string> backends; ///< empty: all that work here and are no reference
+    int repeats = 3;
+    bool json = false;
+};
+
 int check(const CheckArguments& arguments, const Console& console);
 int passes(const PassesArguments& arguments, const Console& console);
 int compare(const CompareArguments& arguments, const Console& console);
@@ -96,6 +105,7 @@ int doctor(const DoctorArguments& arguments, const Console& console);
 int render(const RenderArguments& arguments, const Console& console);
 int demo(const DemoArguments& arguments, const Console& console);
 int benchParts(const BenchPartsArguments& arguments, const Console& console);
+int benchTracers(const BenchTracersArguments& arguments, const Console& console);
 
 /// Reads the command line, runs the command, turns exceptions into one message and an exit code.
 int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::ostream& err);

@@ -82,5 +82,34 @@ TEST(BenchParts, MeasuresEveryPart) {
     EXPECT_EQ(ratios["steady_allocations"]["value"], 0.0);
 }
 
+TEST(BenchTracers, MeasuresEveryKindOfRayWithEveryBackend) {
+    const CommandRun run =
+        runHone({"bench", "tracers", "--scene", "builtin:cornell", "--size", "32x24", "--repeats",
+                 "1", "--backends", "brute,embree", "--json"});
+    ASSERT_EQ(run.code, kOk) << run.err;
+    const nlohmann::json report = run.json();
+    ASSERT_EQ(report["backends"].size(), 2u);
+    for (const nlohmann::json& row : report["backends"]) {
+        double share = report["rest_ms"].get<double>() / row["frame_ms"].get<double>();
+        for (const nlohmann::json& kind : row["kinds"]) {
+            EXPECT_GT(kind["mrays_per_s"].get<double>(), 0.0);
+            EXPECT_EQ(kind["sampled"], kind["rays"]);
+            share += kind["frame_share"].get<double>();
+        }
+        EXPECT_EQ(row["kinds"][0]["kind"], "primary");
+        EXPECT_EQ(row["kinds"][0]["rays"], 32 * 24);
+        EXPECT_NEAR(share, 1.0, 1e-9);
+    }
+    // Both settle ties alike, and no ray of this view grazes an edge.
+    EXPECT_EQ(report["backends"][1]["kinds"][0]["differing"], 0);
+}
+
+TEST(BenchTracers, NamesAnUnknownBackend) {
+    const CommandRun run =
+        runHone({"bench", "tracers", "--scene", "builtin:cornell", "--backends", "embre"});
+    EXPECT_EQ(run.code, kBadInput);
+    EXPECT_NE(run.err.find("embre"), std::string::npos);
+}
+
 } // namespace
 } // namespace hone::cli
