@@ -186,6 +186,9 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
                             "exit 1 if a channel differs by more");
     compare_app->add_option("--max-differing-bits", compare_arguments.max_differing_bits,
                             "exit 1 if more bits differ (0 = must be identical)");
+    compare_app->add_flag("--explain", compare_arguments.explain,
+                          "trace each differing pixel again and say why the backends of two EXR "
+                          "images differ there; exit 1 if rounding does not explain it");
     compare_app->add_flag("--json", compare_arguments.json, "one JSON object on standard output");
     chosen(compare_app, [&] { return compare(compare_arguments, console); });
 

@@ -49,6 +49,7 @@ struct CompareArguments {
     std::string heat_map;       ///< PNG to write; "" = none
     double max_difference = -1; ///< exit 1 past it; negative = never
     long long max_differing_bits = -1;
+    bool explain = false; ///< ask the backends of both images why pixels differ
     bool json = false;
 };
 

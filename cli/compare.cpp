@@ -3,6 +3,7 @@
 // hone compare: how far two images are apart.
 #include "hone/cli/color_map.h"
 #include "hone/cli/commands.h"
+#include "hone/cli/explain_images.h"
 #include "hone/cli/json.h"
 
 #include "hone/core/error.h"
@@ -33,6 +34,25 @@ void writeHeatMap(const std::string& path, const RgbImage& a, const RgbImage& b,
     writePng(path, quantize(a.extent, colors));
 }
 
+/// The explained pixels, one a line, and their sums.
+void list(const nlohmann::ordered_json& explained, std::ostream& out) {
+    for (const auto& pixel : explained["pixels"]) {
+        out << "pixel " << pixel["x"] << "," << pixel["y"] << ": "
+            << pixel["why"].get<std::string>();
+        if (pixel.contains("border"))
+            out << " (" << pixel["border"].get<std::string>() << ")";
+        if (pixel.contains("ray"))
+            out << ", " << pixel["ray_kind"].get<std::string>() << " ray "
+                << pixel["ray"].get<std::string>() << ": " << pixel["a"].get<std::string>()
+                << " or " << pixel["b"].get<std::string>();
+        else
+            out << ", no ray is answered differently";
+        out << "\n";
+    }
+    out << "ties " << explained["ties"] << ", silhouettes " << explained["silhouettes"]
+        << ", unexplained " << explained["unexplained"] << "\n";
+}
+
 } // namespace
 
 int compare(const CompareArguments& arguments, const Console& console) {
@@ -46,26 +66,32 @@ int compare(const CompareArguments& arguments, const Console& console) {
     const ImageDifference difference = compareImages(a, b);
     if (!arguments.heat_map.empty())
         writeHeatMap(arguments.heat_map, a, b, difference.max);
+    nlohmann::ordered_json report{{"mse", finite(difference.mse)},
+                                  {"rmse", finite(difference.rmse)},
+                                  {"psnr", finite(difference.psnr)},
+                                  {"ssim", finite(difference.ssim)},
+                                  {"max", finite(difference.max)},
+                                  {"differing_pixels", difference.differing_pixels},
+                                  {"differing_bits", difference.differing_bits}};
+    if (arguments.explain)
+        report["explained"] = explainImages(arguments.a, a, arguments.b, b);
+    const bool is_unexplained = arguments.explain && report["explained"]["unexplained"] != 0;
     if (arguments.json)
-        print(console.out, {{"mse", finite(difference.mse)},
-                            {"rmse", finite(difference.rmse)},
-                            {"psnr", finite(difference.psnr)},
-                            {"ssim", finite(difference.ssim)},
-                            {"max", finite(difference.max)},
-                            {"differing_pixels", difference.differing_pixels},
-                            {"differing_bits", difference.differing_bits}});
+        print(console.out, report);
     else
         console.out << "mse " << difference.mse << "\nrmse " << difference.rmse << "\npsnr "
                     << difference.psnr << " dB\nssim " << difference.ssim << "\nmax "
                     << difference.max << "\ndiffering pixels " << difference.differing_pixels
                     << " of " << a.pixels.size() << "\ndiffering bits " << difference.differing_bits
                     << "\n";
+    if (arguments.explain && !arguments.json)
+        list(report["explained"], console.out);
     const bool too_far =
         arguments.max_difference >= 0 && !(difference.max <= arguments.max_difference);
     const bool too_many =
         arguments.max_differing_bits >= 0 &&
         difference.differing_bits > static_cast<std::uint64_t>(arguments.max_differing_bits);
-    return too_far || too_many ? kTargetNotMet : kOk;
+    return too_far || too_many || is_unexplained ? kTargetNotMet : kOk;
 }
 
 } // namespace hone::cli

@@ -80,6 +80,20 @@ void summarise(const Json& report, const Console& console) {
     err << "\n" << std::defaultfloat;
 }
 
+/// What it takes to make the image again; compare reads it.
+Provenance provenanceOf(const Stage& stage, const RenderArguments& arguments) {
+    std::string parameters;
+    for (const auto& [name, value] : arguments.overrides)
+        parameters += name + "=" + value + "\n";
+    return {{"hone.graph", arguments.graph},
+            {"hone.parameters", parameters},
+            {"hone.scene", stage.scene.name},
+            {"hone.camera", arguments.camera},
+            {"hone.backend", backendOf(*stage.executor)},
+            {"hone.seed", std::to_string(arguments.seed)},
+            {"hone.version", HONE_VERSION}};
+}
+
 } // namespace
 
 int render(const RenderArguments& arguments, const Console& console) {
@@ -98,11 +112,7 @@ int render(const RenderArguments& arguments, const Console& console) {
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 
     const std::vector<std::string> paths =
-        writeOutputs(*stage->executor, arguments.output_directory,
-                     {{"hone.graph", stage->executor->graph().name},
-                      {"hone.scene", stage->scene.name},
-                      {"hone.seed", std::to_string(arguments.seed)},
-                      {"hone.version", HONE_VERSION}});
+        writeOutputs(*stage->executor, arguments.output_directory, provenanceOf(*stage, arguments));
     Json result = report(*stage, arguments, frame_ms, paths);
     if (!arguments.reference.empty()) {
         const Value& color = stage->executor->output("color");
