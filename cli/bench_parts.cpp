@@ -262,7 +262,7 @@ private:
     PassRegistry passes_;
     TraceBackendRegistry tracers_;
     RayRecord rays_;
-    Session session_; // owns the devices: before executors, which must go first
+    Session session_{arguments_.plugins}; // owns the devices: before executors, which must go first
     Scene scene_;
     Camera camera_;
     BareEmbree bare_;

@@ -11,7 +11,7 @@
 namespace hone::cli {
 
 int check(const CheckArguments& arguments, const Console& console) {
-    const Session session;
+    const Session session(arguments.plugins);
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
     int result = kOk;
     for (const std::string& name : arguments.graphs) {

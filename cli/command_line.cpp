@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/cli/commands.h"
+#include "hone/cli/install_paths.h"
 #include "hone/core/error.h"
 #include "hone/core/log.h"
 
@@ -66,6 +67,8 @@ int guarded(const std::function<int()>& command, std::ostream& err) {
         return report(problem, kBadInput);
     } catch (const InputError& problem) {
         return report(problem, kBadInput);
+    } catch (const PluginError& problem) {
+        return report(problem, kPluginFailed);
     } catch (const DeviceError& problem) {
         return report(problem, kNoDevice);
     } catch (const OutOfMemory& problem) {
@@ -88,7 +91,9 @@ std::string findGraph(const std::string& name) {
     std::error_code ignored;
     if (fs::is_regular_file(name, ignored))
         return name;
-    const fs::path shipped = fs::path(HONE_SOURCE_DIR) / "graphs" / fs::path(name).filename();
+    const fs::path installed = installedGraphs();
+    const fs::path graphs = installed.empty() ? fs::path(HONE_SOURCE_DIR) / "graphs" : installed;
+    const fs::path shipped = graphs / fs::path(name).filename();
     for (const fs::path& candidate : {shipped, fs::path(shipped.string() + ".json")})
         if (fs::is_regular_file(candidate, ignored))
             return candidate.string();
@@ -105,6 +110,12 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     app.require_subcommand(1);
     bool verbose = false;
     app.add_flag("-v,--verbose", verbose, "say what is chosen and built");
+    std::vector<std::string> plugins;
+    app.add_option("--plugin", plugins,
+                   "a plug-in to load; repeatable. Also searched: the folders of HONE_PLUGIN_PATH")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    app.fallthrough(); // options of all commands may follow a command's name
 
     std::function<int()> command;
     const auto chosen = [&command](CLI::App* sub, std::function<int()> run) {
@@ -251,6 +262,10 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     } catch (const CLI::ParseError& problem) {
         return app.exit(problem, out, err) == 0 ? kOk : kUsage;
     }
+    for (SessionArguments* arguments : std::initializer_list<SessionArguments*>{
+             &demo_arguments, &render_arguments, &check_arguments, &passes_arguments,
+             &doctor_arguments, &bench_arguments})
+        arguments->plugins = plugins;
     if (verbose)
         logger().set_level(spdlog::level::info);
     return guarded(command, err);

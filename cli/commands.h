@@ -31,14 +31,19 @@ struct Console {
     bool err_is_terminal = false; ///< live progress and colour only then
 };
 
-struct CheckArguments {
+/// What every command takes that opens a Session.
+struct SessionArguments {
+    std::vector<std::string> plugins; ///< files to load
+};
+
+struct CheckArguments : SessionArguments {
     std::vector<std::string> graphs;
     Overrides overrides;
     bool plan = false; ///< print the plan's dump
     bool json = false;
 };
 
-struct PassesArguments {
+struct PassesArguments : SessionArguments {
     std::string name; ///< "" = list
     bool json = false;
 };
@@ -53,11 +58,11 @@ struct CompareArguments {
     bool json = false;
 };
 
-struct DoctorArguments {
+struct DoctorArguments : SessionArguments {
     bool json = false;
 };
 
-struct RenderArguments {
+struct RenderArguments : SessionArguments {
     std::string graph;
     std::string scene = "builtin:atrium";
     std::string camera;
@@ -76,13 +81,13 @@ struct RenderArguments {
     bool json = false;
 };
 
-struct DemoArguments {
+struct DemoArguments : SessionArguments {
     std::string output_directory = "out/demo";
     std::string device;
     uvec2 size{960, 640};
 };
 
-struct BenchPartsArguments {
+struct BenchPartsArguments : SessionArguments {
     std::string scene;
     std::string camera;
     std::vector<uvec2> sizes{{800, 600}, {1024, 768}, {1920, 1080}};

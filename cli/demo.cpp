@@ -72,6 +72,7 @@ int demo(const DemoArguments& arguments, const Console& console) {
     requireWritableDirectory(arguments.output_directory);
     const InterruptGuard interrupts;
     RenderArguments job;
+    job.plugins = arguments.plugins;
     job.graph = "sir";
     job.scene = "builtin:atrium";
     job.size = arguments.size;

@@ -7,6 +7,7 @@
 
 #include "hone/backends/vulkan/vulkan_device.h"
 #include "hone/core/error.h"
+#include "hone/core/printable.h"
 
 #include <ostream>
 #include <thread>
@@ -61,7 +62,7 @@ int doctor(const DoctorArguments& arguments, const Console& console) {
     say("validation layer", validation, validation_detail,
         "apt install vulkan-validationlayers (only tests and --validate need it)");
 
-    Session session;
+    Session session(arguments.plugins);
     Devices on;
     try {
         on = session.openDevices("", false);
@@ -75,6 +76,15 @@ int doctor(const DoctorArguments& arguments, const Console& console) {
             say("trace backend", false, name + ": " + problem.what(), "");
         }
     }
+    for (const Plugin& plugin : session.plugins()) {
+        const PluginInfo& info = plugin.info();
+        say("plug-in", true,
+            info.name + " " + info.version + " (" + info.license + ", built by " + info.build +
+                ") from " + printable(info.file) + ": " + info.doc,
+            "");
+    }
+    for (const std::string& problem : session.pluginProblems())
+        say("plug-in", false, problem, "");
     report["checks"] = checks;
     report["can_raster"] = can_raster;
     if (arguments.json)

@@ -91,7 +91,7 @@ void printManual(const PassType& type, const Session& session, std::ostream& out
 } // namespace
 
 int passes(const PassesArguments& arguments, const Console& console) {
-    const Session session;
+    const Session session(arguments.plugins);
     if (arguments.name.empty()) {
         Json all = Json::array();
         for (const PassType& type : session.passes().all()) {

@@ -37,7 +37,7 @@ int InterruptGuard::requested() {
 }
 
 std::unique_ptr<Stage> makeStage(const RenderArguments& arguments, const Console& console) {
-    auto stage = std::make_unique<Stage>();
+    auto stage = std::make_unique<Stage>(arguments.plugins);
     CompiledGraph graph =
         loadGraph(findGraph(arguments.graph), stage->session.catalog(), arguments.overrides);
     stage->scene = loadScene(arguments.scene);

@@ -5,11 +5,14 @@
 #include "hone/cli/session.h"
 
 #include <memory>
+#include <span>
 
 namespace hone::cli {
 
 /// A graph, a scene and a camera made ready to run: what render, demo and bench have in common.
 struct Stage {
+    explicit Stage(std::span<const std::string> plugins) : session(plugins) {}
+
     Session session;
     Devices devices;
     Scene scene;

@@ -3,16 +3,33 @@
 
 #include "hone/backends/backends.h"
 #include "hone/backends/host/host_device.h"
+#include "hone/backends/host/parallel_for.h"
 #include "hone/backends/vulkan/vulkan_device.h"
+#include "hone/cli/install_paths.h"
 #include "hone/core/error.h"
 #include "hone/core/log.h"
+#include "hone/core/plugin/plugin_search.h"
 #include "hone/passes/passes.h"
+
+#include <cstdlib>
 
 namespace hone::cli {
 
-Session::Session() {
+Session::Session(std::span<const std::string> plugins) {
     registerPasses(passes_);
     registerTraceBackends(trace_backends_);
+
+    PluginSearch search;
+    search.files.assign(plugins.begin(), plugins.end());
+    // secure_getenv: whoever starts a program with more rights than their own must not choose its
+    // code.
+    if (const char* folders = secure_getenv("HONE_PLUGIN_PATH"))
+        search.folders = foldersOfVariable("HONE_PLUGIN_PATH", folders, plugin_problems_);
+    if (std::filesystem::path installed = installedPlugins(); !installed.empty())
+        search.folders.push_back(std::move(installed));
+    plugins_ = loadPlugins(search, trace_backends_, hostParallelFor, plugin_problems_);
+    for (const std::string& problem : plugin_problems_)
+        logger().warn("{}", problem);
 }
 
 Devices Session::openDevices(const std::string& vulkan_name, bool validation) {

@@ -3,20 +3,30 @@
 
 #include "hone/core/device/device.h"
 #include "hone/core/graph/executor.h"
+#include "hone/core/plugin/plugin.h"
 
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace hone::cli {
 
 /// Everything that commands share: what graphs may use, and the devices that they run on.
 class Session {
 public:
-    /// Registers passes and trace backends. Opens no device.
-    Session();
+    /// Registers passes, trace backends, and those of plug-ins: first `plugins`, files that the
+    /// person named, which must load (PluginError); then what the folders of HONE_PLUGIN_PATH and
+    /// the installed plug-in folder have, where what does not load is warned about and left out.
+    /// Opens no device.
+    explicit Session(std::span<const std::string> plugins = {});
     [[nodiscard]] Catalog catalog() const { return {&passes_, &trace_backends_}; }
     [[nodiscard]] const PassRegistry& passes() const { return passes_; }
     [[nodiscard]] const TraceBackendRegistry& traceBackends() const { return trace_backends_; }
+
+    [[nodiscard]] std::span<const Plugin> plugins() const { return plugins_; }
+    /// Why plug-ins that were found were left out.
+    [[nodiscard]] std::span<const std::string> pluginProblems() const { return plugin_problems_; }
 
     /// Opens the host and the named Vulkan device ("" = the best; "none" = no Vulkan). Without a
     /// usable Vulkan device the host alone is there, and raster_problem() says why.
@@ -28,6 +38,8 @@ public:
 private:
     PassRegistry passes_;
     TraceBackendRegistry trace_backends_;
+    std::vector<Plugin> plugins_;
+    std::vector<std::string> plugin_problems_;
     std::unique_ptr<Device> host_;
     std::unique_ptr<Device> vulkan_;
     std::string raster_problem_;

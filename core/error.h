@@ -18,6 +18,12 @@ struct SceneError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// A plug-in that cannot be used, or that failed at its work. Text: which one, what is wrong with
+/// it, what to do. Exit code 4.
+struct PluginError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 /// No usable device, a failed device call (with the call's text and the result's name), a lost
 /// device. Exit code 5.
 struct DeviceError : std::runtime_error {

@@ -4,10 +4,7 @@
 #include "hone/cli/commands.h"
 #include "hone/cli/session.h"
 
-#include <cstdlib>
-#include <fstream>
 #include <sstream>
-#include <stdexcept>
 
 namespace hone::cli {
 
@@ -21,23 +18,6 @@ CommandRun runHone(const std::vector<std::string>& arguments) {
     run.out = out.str();
     run.err = err.str();
     return run;
-}
-
-TemporaryFolder::TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "hone-test-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
-        throw std::runtime_error("no temporary folder: " + name);
-    folder_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-}
-
-std::string TemporaryFolder::write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    return path(name);
 }
 
 std::string whyNoRaster() {
