@@ -112,7 +112,7 @@ struct Contender {
 class TracersBench {
 public:
     TracersBench(const BenchTracersArguments& arguments, const Console& console)
-        : arguments_(arguments), console_(console),
+        : arguments_(arguments), console_(console), session_(arguments.plugins),
           scene_(loadScene(arguments.scene.empty() ? defaultBenchScene() : arguments.scene)),
           devices_(session_.openDevices("", false)) {}
 

@@ -264,7 +264,7 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     }
     for (SessionArguments* arguments : std::initializer_list<SessionArguments*>{
              &demo_arguments, &render_arguments, &check_arguments, &passes_arguments,
-             &doctor_arguments, &bench_arguments})
+             &compare_arguments, &doctor_arguments, &bench_arguments, &tracers_arguments})
         arguments->plugins = plugins;
     if (verbose)
         logger().set_level(spdlog::level::info);

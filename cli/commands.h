@@ -48,7 +48,7 @@ struct PassesArguments : SessionArguments {
     bool json = false;
 };
 
-struct CompareArguments {
+struct CompareArguments : SessionArguments {
     std::string a, b;
     std::string layer;          ///< of EXR files; "" = the first with three channels
     std::string heat_map;       ///< PNG to write; "" = none
@@ -95,7 +95,7 @@ struct BenchPartsArguments : SessionArguments {
     bool json = false;
 };
 
-struct BenchTracersArguments {
+struct BenchTracersArguments : SessionArguments {
     std::string scene;
     std::string camera;
     uvec2 size{800, 600};

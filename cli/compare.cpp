@@ -74,7 +74,7 @@ int compare(const CompareArguments& arguments, const Console& console) {
                                   {"differing_pixels", difference.differing_pixels},
                                   {"differing_bits", difference.differing_bits}};
     if (arguments.explain)
-        report["explained"] = explainImages(arguments.a, a, arguments.b, b);
+        report["explained"] = explainImages(arguments.a, a, arguments.b, b, arguments.plugins);
     const bool is_unexplained = arguments.explain && report["explained"]["unexplained"] != 0;
     if (arguments.json)
         print(console.out, report);

@@ -82,8 +82,10 @@ Json describe(const std::optional<PixelReason>& reason) {
 } // namespace
 
 Json explainImages(const std::string& path_a, const RgbImage& a, const std::string& path_b,
-                   const RgbImage& b) {
-    PixelProbe probe(commonOrigin(Origin(path_a), Origin(path_b), a.extent));
+                   const RgbImage& b, std::span<const std::string> plugins) {
+    PixelProbe::Setup setup = commonOrigin(Origin(path_a), Origin(path_b), a.extent);
+    setup.plugins.assign(plugins.begin(), plugins.end());
+    PixelProbe probe(setup);
     Json pixels = Json::array();
     std::size_t counts[4] = {};
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {

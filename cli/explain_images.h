@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <span>
 #include <string>
 
 namespace hone::cli {
@@ -16,8 +17,9 @@ namespace hone::cli {
 /// {"ties", "silhouettes", "unexplained": counts, "pixels": [{"x", "y", "why", "ray_kind", "ray",
 /// "a", "b", "border"}]}; answers in words. A pixel whose rays are all answered alike is
 /// unexplained. Throws InputError if the images do not say how they were made, or were made
-/// differently.
+/// differently. `plugins`: files that offer backends.
 [[nodiscard]] nlohmann::ordered_json explainImages(const std::string& path_a, const RgbImage& a,
-                                                   const std::string& path_b, const RgbImage& b);
+                                                   const std::string& path_b, const RgbImage& b,
+                                                   std::span<const std::string> plugins);
 
 } // namespace hone::cli

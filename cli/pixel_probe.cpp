@@ -126,7 +126,8 @@ private:
     mutable int lists_asked_ = 0; ///< of closest hits, for the pixel
 };
 
-PixelProbe::PixelProbe(const Setup& setup) : scene_(loadScene(setup.scene)) {
+PixelProbe::PixelProbe(const Setup& setup)
+    : session_(setup.plugins), scene_(loadScene(setup.scene)) {
     const CompiledGraph graph =
         loadGraph(findGraph(setup.graph), session_.catalog(), setup.overrides);
     const Devices devices = session_.openDevices("", false);

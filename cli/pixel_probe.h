@@ -31,7 +31,8 @@ public:
         std::string camera;
         uvec2 extent{0, 0};
         std::uint64_t seed = 0;
-        std::string backends[2]; ///< the first one's answers make the following rays
+        std::vector<std::string> plugins; ///< files that offer backends
+        std::string backends[2];          ///< the first one's answers make the following rays
     };
     /// Throws GraphError, SceneError, DeviceError; InputError if the graph traces nothing or a
     /// backend is unknown.

@@ -112,7 +112,7 @@ TraceBackend& Tracers::get(std::string_view backend, const Value& scene_value) {
     const std::string resolved = resolve(backend);
     auto found = std::ranges::find(built_, resolved, &Built::name);
     if (found == built_.end())
-        found = built_.insert(built_.end(), Built{.name = resolved, .backend = make(resolved)});
+        found = built_.insert(built_.end(), Built{resolved, make(resolved), 0, 0, {}});
     if (found->version == scene.version)
         return *found->backend;
 
