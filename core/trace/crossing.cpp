@@ -10,7 +10,7 @@
 namespace hone {
 namespace {
 
-using glm::dvec2, glm::dvec3, glm::dmat4x3;
+using glm::dvec2, glm::dvec3, glm::dmat3, glm::dmat4x3;
 
 /// Steps of a float, of relative size 2^-24, that a tracer may be off by.
 constexpr double kRounding = 32.0 / 16777216.0;
@@ -51,6 +51,55 @@ double distanceToSegment(const dvec2& a, const dvec2& b) {
     return glm::length(a + s * edge);
 }
 
+/// A triangle as the line sees it.
+struct Figure {
+    explicit Figure(const std::array<dvec2, 3>& corners) {
+        const double ab = cross2(corners[0], corners[1]);
+        const double bc = cross2(corners[1], corners[2]);
+        const double ca = cross2(corners[2], corners[0]);
+        is_inside = std::min({ab, bc, ca}) > 0 || std::max({ab, bc, ca}) < 0;
+        double_area = std::abs(ab + bc + ca);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const dvec2 &a = corners[i], &b = corners[(i + 1) % 3];
+            nearest_edge = std::min(nearest_edge, distanceToSegment(a, b));
+            longest_edge = std::max(longest_edge, glm::length(b - a));
+        }
+    }
+    bool is_inside = false; ///< the line passes it
+    double double_area = 0;
+    double nearest_edge = HUGE_VAL; ///< from the line
+    double longest_edge = 0;
+};
+
+/// Whether the corners all lie more than `slack` to one side of the line.
+bool isBeside(const std::array<dvec2, 3>& c, double slack) {
+    return std::min({c[0].x, c[1].x, c[2].x}) > slack ||
+           std::max({c[0].x, c[1].x, c[2].x}) < -slack ||
+           std::min({c[0].y, c[1].y, c[2].y}) > slack ||
+           std::max({c[0].y, c[1].y, c[2].y}) < -slack;
+}
+
+/// The largest of the numbers that a point's place in the world is the sum of.
+double termsOf(const dmat4x3& to_world, const dvec3& point) {
+    dvec3 terms = glm::abs(to_world[3]);
+    for (int column = 0; column < 3; ++column)
+        terms += glm::abs(to_world[column] * point[column]);
+    return largest(terms);
+}
+
+dmat3 absolute(const dmat3& m) {
+    return {glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])};
+}
+
+/// The largest of the numbers that `point` is the sum of once a tracer has taken it to an
+/// instance's own space and back: more than its own where a matrix shears or turns what it scales.
+double detourOf(const dmat4x3& to_world, const dvec3& point) {
+    const dmat3 linear(to_world);
+    const dvec3 terms = glm::abs(point) + glm::abs(to_world[3]);
+    const double detour = largest(absolute(linear) * (absolute(glm::inverse(linear)) * terms));
+    return std::isfinite(detour) ? detour : 0.0; // a flattened instance has no way back
+}
+
 class CrossingSearch {
 public:
     CrossingSearch(const Scene& scene, const HostSurface& surface, const Ray& ray)
@@ -71,16 +120,20 @@ private:
         for (int column = 0; column < 3; ++column)
             squared_stretch += glm::dot(to_world[column], to_world[column]);
         const double stretch = std::sqrt(squared_stretch);
+        const double detour = detourOf(to_world, line_.origin);
         for (uint c = mesh.first_cluster; c < mesh.first_cluster + mesh.cluster_count; ++c) {
             const Cluster& cluster = scene_.clusters[c];
             const dvec3 center = to_world * glm::dvec4(cluster.center, 1);
             // A little more than rounding can take, of the corners and of the ball itself.
             const double radius = cluster.radius * stretch;
-            const double size = termsOf(to_world, cluster.center) + radius + largest(line_.origin);
-            if (!passesBall(center, radius + 1e-5 * size))
+            const double size =
+                termsOf(to_world, cluster.center) + radius + largest(line_.origin) + detour;
+            const double slack = 1e-5 * size;
+            if (!passesBall(center, radius + slack))
                 continue;
             for (uint i = 0; i < cluster.triangle_count; ++i)
-                meet({index, cluster.first_triangle + i - mesh.first_triangle}, instance, mesh);
+                meet({index, cluster.first_triangle + i - mesh.first_triangle}, instance, mesh,
+                     detour, slack);
         }
     }
 
@@ -92,24 +145,18 @@ private:
                depth - radius <= line_.end * line_.speed;
     }
 
-    /// The largest of the numbers that a point's place in the world is the sum of.
-    [[nodiscard]] static double termsOf(const dmat4x3& to_world, const dvec3& point) {
-        dvec3 terms = glm::abs(to_world[3]);
-        for (int column = 0; column < 3; ++column)
-            terms += glm::abs(to_world[column] * point[column]);
-        return largest(terms);
-    }
-
-    /// How far rounding may move the ray against the triangle, in metres.
-    [[nodiscard]] double roundingAt(const Instance& instance, const uvec3& corners) const {
-        const dmat4x3 to_world(instance.to_world);
-        double size = largest(line_.origin);
+    /// How far rounding may move the ray against the triangle, in metres. `detour`: of its
+    /// instance.
+    [[nodiscard]] double roundingAt(const dmat4x3& to_world, const uvec3& corners,
+                                    double detour) const {
+        double size = std::max(largest(line_.origin), detour);
         for (int corner = 0; corner < 3; ++corner)
             size = std::max(size, termsOf(to_world, dvec3(scene_.positions[corners[corner]])));
         return kRounding * size;
     }
 
-    void meet(Hit hit, const Instance& instance, const Mesh& mesh) {
+    /// `slack`: more than roundingAt() gives.
+    void meet(Hit hit, const Instance& instance, const Mesh& mesh, double detour, double slack) {
         const uvec3 corners = scene_.triangles[mesh.first_triangle + hit.primitive];
         std::array<dvec3, 3> at; // from the ray's origin
         std::array<dvec2, 3> seen;
@@ -117,29 +164,21 @@ private:
             at[i] = dvec3(surface_.worldPosition(instance, corners[i])) - line_.origin;
             seen[i] = line_.project(at[i]);
         }
+        if (isBeside(seen, slack))
+            return;
         const dvec3 normal = glm::cross(at[1] - at[0], at[2] - at[0]);
         if (normal == dvec3(0))
             return;
 
         // Does the ray pass the triangle?
-        const double rounding = roundingAt(instance, corners);
-        double nearest_edge = HUGE_VAL, longest_edge = 0;
-        for (int i = 0; i < 3; ++i) {
-            const dvec2 &a = seen[i], &b = seen[(i + 1) % 3];
-            nearest_edge = std::min(nearest_edge, distanceToSegment(a, b));
-            longest_edge = std::max(longest_edge, glm::length(b - a));
-        }
-        const double ab = cross2(seen[0], seen[1]);
-        const double bc = cross2(seen[1], seen[2]);
-        const double ca = cross2(seen[2], seen[0]);
-        const bool is_inside = std::min({ab, bc, ca}) > 0 || std::max({ab, bc, ca}) < 0;
-        if (!is_inside && nearest_edge > rounding)
+        const double rounding = roundingAt(dmat4x3(instance.to_world), corners, detour);
+        const Figure figure(seen);
+        if (!figure.is_inside && figure.nearest_edge > rounding)
             return;
         Crossing crossing{.hit = hit};
-        if (nearest_edge <= rounding)
+        if (figure.nearest_edge <= rounding)
             crossing.border = Border::kEdge;
-        const double double_area = ab + bc + ca; // as seen, and signed
-        if (std::abs(double_area) <= 2 * rounding * longest_edge)
+        if (figure.double_area <= 2 * rounding * figure.longest_edge)
             crossing.border = Border::kGrazing;
 
         // Which face does it see?
