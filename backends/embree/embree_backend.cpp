@@ -59,7 +59,10 @@ void closestOf(const EmbreeTree& tree, std::span<const Ray> rays, std::span<Hit>
     for (std::size_t first = begin; first < end; first += kPacket) {
         Packet packet(rays, first);
         nearest.fill({std::numeric_limits<float>::infinity(), {kNone, kNone}});
-        query.intersect(tree.handle(), packet.valid.data(), packet.rays);
+        for (const EmbreePart& part : tree.parts()) { // nearest, and how far it is, stay
+            query.context().part = &part;
+            query.intersect(part.scene.handle(), packet.valid.data(), packet.rays);
+        }
         const std::size_t count = std::min<std::size_t>(kPacket, end - first);
         for (uint lane = 0; lane < count; ++lane)
             hits[first + lane] = nearest[lane].hit;
@@ -69,13 +72,20 @@ void closestOf(const EmbreeTree& tree, std::span<const Ray> rays, std::span<Hit>
 /// Answers occluded[begin, end) in packets.
 void occludedTogether(const EmbreeTree& tree, std::span<const Ray> rays, std::span<uint> occluded,
                       std::size_t begin, std::size_t end) {
-    EmbreeQuery query(rays.data(), true, nullptr);
+    EmbreeQuery query(rays.data(), true, tree.occlusionFilter());
     for (std::size_t first = begin; first < end; first += kPacket) {
         Packet packet(rays, first);
-        query.occluded(tree.handle(), packet.valid.data(), packet.rays.ray);
         const std::size_t count = std::min<std::size_t>(kPacket, end - first);
-        for (uint lane = 0; lane < count; ++lane) // Embree sets tfar to minus infinity
-            occluded[first + lane] = packet.rays.ray.tfar[lane] < 0.0f ? 1u : 0u;
+        std::fill_n(&occluded[first], count, 0u);
+        for (const EmbreePart& part : tree.parts()) {
+            query.context().part = &part;
+            query.occluded(part.scene.handle(), packet.valid.data(), packet.rays.ray);
+            for (uint lane = 0; lane < count; ++lane)
+                if (packet.rays.ray.tfar[lane] < 0.0f) { // Embree sets it to minus infinity
+                    occluded[first + lane] = 1;
+                    packet.valid[lane] = 0;
+                }
+        }
     }
 }
 
@@ -83,7 +93,7 @@ void occludedTogether(const EmbreeTree& tree, std::span<const Ray> rays, std::sp
 /// anywhere, and depend on each other even without the coherent flag.
 void occludedOneByOne(const EmbreeTree& tree, std::span<const Ray> rays, std::span<uint> occluded,
                       std::size_t begin, std::size_t end) {
-    EmbreeQuery query(rays.data(), false, nullptr);
+    EmbreeQuery query(rays.data(), false, tree.occlusionFilter());
     for (std::size_t index = begin; index < end; ++index) {
         const Ray& ray = rays[index];
         occluded[index] = 0;
@@ -101,8 +111,13 @@ void occludedOneByOne(const EmbreeTree& tree, std::span<const Ray> rays, std::sp
                      .mask = ~0u,
                      .id = static_cast<uint>(index),
                      .flags = 0};
-        query.occluded(tree.handle(), asked);
-        occluded[index] = asked.tfar < 0.0f ? 1u : 0u;
+        for (const EmbreePart& part : tree.parts()) {
+            query.context().part = &part;
+            query.occluded(part.scene.handle(), asked);
+            occluded[index] = asked.tfar < 0.0f ? 1u : 0u;
+            if (occluded[index] != 0)
+                break;
+        }
     }
 }
 
@@ -122,20 +137,25 @@ public:
         return {.name = "embree",
                 .version = RTC_VERSION_STRING,
                 .runs_on = "host",
-                .settles_ties = true};
+                .settles_ties = true,
+                .updates = true};
     }
 
     BuildStats build(const Scene& scene, const SceneBuffers*) override {
-        const auto begin = std::chrono::steady_clock::now();
+        const auto begin = Clock::now();
         scene_ = &scene;
         tree_.reset(); // the old tree's memory first
         tree_ = std::make_unique<EmbreeTree>(device_, scene, params_.flatten_triangles);
-        const std::chrono::duration<double, std::milli> passed =
-            std::chrono::steady_clock::now() - begin;
-        return {.ms = passed.count(), .triangles = tree_->triangles(), .bytes = device_.bytes()};
+        return stats(begin);
     }
 
-    BuildStats update(std::span<const uint>) override { return build(*scene_, nullptr); }
+    BuildStats update(std::span<const uint> moved) override {
+        HONE_ASSERT(tree_ != nullptr, "build() comes before the first update");
+        const auto begin = Clock::now();
+        if (!tree_->move(moved))
+            return build(*scene_, nullptr);
+        return stats(begin);
+    }
 
     void closest(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence,
                  const TraceOptions& options) const override {
@@ -156,6 +176,16 @@ public:
     }
 
 private:
+    using Clock = std::chrono::steady_clock;
+
+    /// The world's vertices are derived, so nothing of the scene is there twice.
+    BuildStats stats(Clock::time_point begin) const {
+        return {.ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count(),
+                .triangles = tree_->triangles(),
+                .bytes = device_.bytes() + tree_->vertexBytes(),
+                .copied_bytes = 0};
+    }
+
     bool useCoherentPackets(Coherence coherence, const TraceOptions& options) const {
         HONE_ASSERT(tree_ != nullptr, "build() comes before the first query");
         return coherence == Coherence::kCoherent && !options.exact && tree_->takesCoherentPackets();

@@ -26,6 +26,8 @@ inline constexpr RTCSceneFlags kSceneFlagQueryFilter = RTC_SCENE_FLAG_CONTEXT_FI
 
 inline constexpr uint kPacket = 16;
 
+struct EmbreePart;
+
 /// What filter functions see of the query that they run in. Embree's context comes first: filters
 /// get a pointer to it.
 struct QueryContext {
@@ -36,7 +38,8 @@ struct QueryContext {
     };
 
     EmbreeContext embree;
-    const Ray* rays; ///< the list that is being answered; an Embree ray's id counts in it
+    const Ray* rays;        ///< the list that is being answered; an Embree ray's id counts in it
+    const EmbreePart* part; ///< the one that is being asked
     /// By ray id modulo kPacket, not by the filter's lane: Embree repacks lanes where 16 are not
     /// native.
     std::array<Nearest, kPacket> nearest;

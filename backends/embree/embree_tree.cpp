@@ -2,33 +2,10 @@
 #include "hone/backends/embree/embree_tree.h"
 
 #include "hone/core/error.h"
-#include "hone/core/log.h"
 #include "hone/core/trace/instancing.h"
-
-#include <algorithm>
-#include <span>
 
 namespace hone {
 namespace {
-
-const char* errorName(RTCError error) {
-    switch (error) {
-    case RTC_ERROR_NONE:
-        return "RTC_ERROR_NONE";
-    case RTC_ERROR_INVALID_ARGUMENT:
-        return "RTC_ERROR_INVALID_ARGUMENT";
-    case RTC_ERROR_INVALID_OPERATION:
-        return "RTC_ERROR_INVALID_OPERATION";
-    case RTC_ERROR_OUT_OF_MEMORY:
-        return "RTC_ERROR_OUT_OF_MEMORY";
-    case RTC_ERROR_UNSUPPORTED_CPU:
-        return "RTC_ERROR_UNSUPPORTED_CPU";
-    case RTC_ERROR_CANCELLED:
-        return "RTC_ERROR_CANCELLED";
-    default:
-        return "RTC_ERROR_UNKNOWN";
-    }
-}
 
 /// How much further than the nearest hit candidates are still asked for: more than kernels'
 /// rounding of t, so that the nearest one cannot be lost to the order in which they come.
@@ -43,138 +20,172 @@ bool isNearer(float t, Hit hit, const QueryContext::Nearest& nearest) {
     return hit.primitive < nearest.hit.primitive;
 }
 
+/// The still part's tree is built anew without what left it once that is a quarter of it: rays
+/// visit what is not there.
+constexpr std::size_t kStillShare = 4;
+
+void setTransform(RTCGeometry placed, const Instance& instance) {
+    rtcSetGeometryTransform(placed, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &instance.to_world);
+}
+
 } // namespace
 
-EmbreeDevice::EmbreeDevice() : device_(rtcNewDevice(nullptr)) {
-    if (handle() == nullptr)
-        throw DeviceError(std::string("rtcNewDevice failed: ") +
-                          errorName(rtcGetDeviceError(nullptr)) +
-                          "; Embree " RTC_VERSION_STRING " needs a 64-bit processor with SSE2");
-    rtcSetDeviceErrorFunction(
-        handle(),
-        [](void* self, RTCError code, const char* text) {
-            logger().debug("Embree: {}: {}", errorName(code), text != nullptr ? text : "");
-            RTCError none = RTC_ERROR_NONE;
-            static_cast<EmbreeDevice*>(self)->error_.compare_exchange_strong(none, code);
-        },
-        this);
-    rtcSetDeviceMemoryMonitorFunction(
-        handle(),
-        [](void* self, ssize_t bytes, bool) {
-            static_cast<EmbreeDevice*>(self)->bytes_ += bytes;
-            return true;
-        },
-        this);
-}
-
-std::size_t EmbreeDevice::bytes() const {
-    return static_cast<std::size_t>(std::max<std::int64_t>(bytes_, 0));
-}
-
-void EmbreeDevice::check(const char* call) {
-    const RTCError error = error_.exchange(RTC_ERROR_NONE);
-    if (error == RTC_ERROR_OUT_OF_MEMORY)
-        throw OutOfMemory(std::string(call) + ": Embree has no memory for the scene");
-    if (error != RTC_ERROR_NONE)
-        throw DeviceError(std::string(call) + " failed: " + errorName(error));
-}
-
 EmbreeTree::EmbreeTree(EmbreeDevice& device, const Scene& scene, std::size_t flatten_triangles)
-    : source_(&scene), surface_(scene), facing_(scene.instances.size(), 0.0f),
-      is_instanced_(chooseInstanced(scene, flatten_triangles)), mesh_trees_(scene.meshes.size()),
-      slots_(scene.positions.size(), kNone), scene_(makeScene(device)) {
+    : device_(&device), source_(&scene), surface_(scene),
+      is_instanced_(chooseInstanced(scene, flatten_triangles)),
+      vertices_(scene, surface_, is_instanced_), mesh_trees_(scene.meshes.size()),
+      moving_things_(scene.instances.size()) {
+    buildStill();
     for (uint index = 0; index < scene.instances.size(); ++index)
-        addInstance(device, index);
-    rtcCommitScene(handle());
-    device.check("rtcCommitScene");
-    slots_ = {};
+        if (!isInstanced(index))
+            triangles_ += meshOf(index).triangle_count;
+    for (std::size_t mesh = 0; mesh < mesh_trees_.size(); ++mesh)
+        if (mesh_trees_[mesh].handle() != nullptr)
+            triangles_ += scene.meshes[mesh].triangle_count;
 }
 
-SceneOwner EmbreeTree::makeScene(EmbreeDevice& device) const {
-    SceneOwner scene(rtcNewScene(device.handle()));
-    device.check("rtcNewScene");
-    rtcSetSceneBuildQuality(scene.handle(), RTC_BUILD_QUALITY_HIGH);
-    rtcSetSceneFlags(scene.handle(), kSceneFlagQueryFilter);
+const Mesh& EmbreeTree::meshOf(uint index) const {
+    return source_->meshes[source_->instances[index].mesh];
+}
+
+bool EmbreeTree::isInstanced(uint index) const {
+    return is_instanced_[source_->instances[index].mesh] != 0;
+}
+
+EmbreePart::Facing EmbreeTree::facingOf(uint index) const {
+    if ((source_->materials[meshOf(index).material].flags & kMaterialTwoSided) != 0)
+        return {};
+    // In an instanced mesh's own space front faces turn counter-clockwise even if it is flipped.
+    const bool turns = source_->instances[index].flipped != 0 && !isInstanced(index);
+    return {.back_sign = turns ? -1.0f : 1.0f};
+}
+
+/// How much of a tree an instance is.
+std::size_t EmbreeTree::weightOf(uint index) const {
+    return isInstanced(index) ? 1 : meshOf(index).triangle_count;
+}
+
+SceneOwner EmbreeTree::makeScene(RTCBuildQuality quality, RTCSceneFlags flags) {
+    SceneOwner scene(rtcNewScene(device_->handle()));
+    device_->check("rtcNewScene");
+    rtcSetSceneBuildQuality(scene.handle(), quality);
+    rtcSetSceneFlags(scene.handle(), flags);
     return scene;
 }
 
-void EmbreeTree::addInstance(EmbreeDevice& device, uint index) {
+void EmbreeTree::commit(RTCScene scene) {
+    rtcCommitScene(scene);
+    device_->check("rtcCommitScene");
+}
+
+/// Builds a tree of the instances that never moved, with spatial splits.
+void EmbreeTree::buildStill() {
+    still() = {}; // the old tree's memory first
+    still().scene = makeScene(RTC_BUILD_QUALITY_HIGH, kSceneFlagQueryFilter);
+    still().facing.resize(source_->instances.size());
+    still_weight_ = left_weight_ = 0;
+    for (uint index = 0; index < source_->instances.size(); ++index) {
+        if (meshOf(index).triangle_count == 0 || moving_things_[index].handle() != nullptr)
+            continue;
+        still().facing[index] = facingOf(index);
+        still_weight_ += weightOf(index);
+        const GeometryOwner thing = makeGeometry(index, RTC_BUILD_QUALITY_HIGH);
+        rtcAttachGeometryByID(still().scene.handle(), thing.handle(), index);
+    }
+    commit(still().scene.handle());
+}
+
+bool EmbreeTree::move(std::span<const uint> moved) {
+    for (const uint index : moved)
+        if (isInstanced(index) && !isInvertible(source_->instances[index]))
+            return false;
+
+    if (moving().scene.handle() == nullptr) {
+        // Of low quality means: a tree for each geometry, and one above them.
+        moving().scene =
+            makeScene(RTC_BUILD_QUALITY_LOW,
+                      static_cast<RTCSceneFlags>(kSceneFlagQueryFilter | RTC_SCENE_FLAG_DYNAMIC));
+        moving().facing.resize(source_->instances.size());
+    }
+    for (const uint index : moved) {
+        if (meshOf(index).triangle_count == 0)
+            continue;
+        if (moving_things_[index].handle() == nullptr)
+            enterMoving(index);
+        else
+            follow(index);
+        moving().facing[index] = facingOf(index);
+    }
+    commit(moving().scene.handle());
+    if (left_weight_ * kStillShare > still_weight_)
+        buildStill();
+    return true;
+}
+
+void EmbreeTree::enterMoving(uint index) {
+    still().facing[index].has_left = true;
+    left_weight_ += weightOf(index);
+    moving_things_[index] = makeGeometry(index, RTC_BUILD_QUALITY_REFIT);
+    rtcAttachGeometryByID(moving().scene.handle(), moving_things_[index].handle(), index);
+}
+
+void EmbreeTree::follow(uint index) {
+    const RTCGeometry thing = moving_things_[index].handle();
+    if (isInstanced(index)) {
+        setTransform(thing, source_->instances[index]);
+    } else {
+        static_cast<void>(vertices_.place(index)); // where they are, Embree knows
+        rtcUpdateGeometryBuffer(thing, RTC_BUFFER_TYPE_VERTEX, 0);
+    }
+    rtcCommitGeometry(thing);
+    device_->check("rtcCommitGeometry");
+}
+
+GeometryOwner EmbreeTree::makeGeometry(uint index, RTCBuildQuality quality) {
     const Instance& instance = source_->instances[index];
     const Mesh& mesh = source_->meshes[instance.mesh];
-    if (mesh.triangle_count == 0)
-        return;
-    const bool instanced = is_instanced_[instance.mesh] != 0;
-    if ((source_->materials[mesh.material].flags & kMaterialTwoSided) == 0) {
-        // In an instanced mesh's own space front faces turn counter-clockwise even if it is
-        // flipped.
-        facing_[index] = instance.flipped != 0 && !instanced ? -1.0f : 1.0f;
-    }
-    if (!instanced) {
-        const GeometryOwner geometry = makeTriangles(device, mesh, &instance);
-        rtcAttachGeometryByID(handle(), geometry.handle(), index);
-        return;
-    }
+    if (!isInstanced(index))
+        return makeTriangles(mesh, vertices_.place(index), quality);
 
     has_instances_ = true;
 
     // A tree for the mesh, when its first instance comes.
     SceneOwner& tree = mesh_trees_[instance.mesh];
     if (tree.handle() == nullptr) {
-        tree = makeScene(device);
-        const GeometryOwner geometry = makeTriangles(device, mesh, nullptr);
-        rtcAttachGeometry(tree.handle(), geometry.handle());
-        rtcCommitScene(tree.handle());
-        device.check("rtcCommitScene");
+        tree = makeScene(RTC_BUILD_QUALITY_HIGH, kSceneFlagQueryFilter);
+        const GeometryOwner triangles =
+            makeTriangles(mesh, source_->positions, RTC_BUILD_QUALITY_HIGH);
+        rtcAttachGeometry(tree.handle(), triangles.handle());
+        commit(tree.handle());
     }
-    const GeometryOwner placed(rtcNewGeometry(device.handle(), RTC_GEOMETRY_TYPE_INSTANCE));
-    device.check("rtcNewGeometry");
+    GeometryOwner placed(rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_INSTANCE));
+    device_->check("rtcNewGeometry");
     rtcSetGeometryInstancedScene(placed.handle(), tree.handle());
-    rtcSetGeometryTransform(placed.handle(), 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR,
-                            &instance.to_world);
+    setTransform(placed.handle(), instance);
     rtcCommitGeometry(placed.handle());
-    rtcAttachGeometryByID(handle(), placed.handle(), index);
+    device_->check("rtcCommitGeometry");
+    return placed;
 }
 
-GeometryOwner EmbreeTree::makeTriangles(EmbreeDevice& device, const Mesh& mesh,
-                                        const Instance* placed) {
-    GeometryOwner geometry(rtcNewGeometry(device.handle(), RTC_GEOMETRY_TYPE_TRIANGLE));
-    device.check("rtcNewGeometry");
-    const std::span<const uvec3> triangles(source_->triangles.data() + mesh.first_triangle,
-                                           mesh.triangle_count);
-
-    // Number the positions that the mesh uses, in the order of their first use.
-    std::vector<uint> used;
-    for (const uvec3& corners : triangles)
-        for (const uint position : {corners.x, corners.y, corners.z})
-            if (slots_[position] == kNone) {
-                slots_[position] = static_cast<uint>(used.size());
-                used.push_back(position);
-            }
-
-    // Embree's own buffers come with the padding that it wants.
-    auto* vertices =
-        static_cast<vec3*>(rtcSetNewGeometryBuffer(geometry.handle(), RTC_BUFFER_TYPE_VERTEX, 0,
-                                                   RTC_FORMAT_FLOAT3, sizeof(vec3), used.size()));
-    auto* indices = static_cast<uvec3*>(
-        rtcSetNewGeometryBuffer(geometry.handle(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                sizeof(uvec3), triangles.size()));
-    device.check("rtcSetNewGeometryBuffer");
-    for (std::size_t i = 0; i < used.size(); ++i)
-        vertices[i] = placed != nullptr ? surface_.worldPosition(*placed, used[i])
-                                        : source_->positions[used[i]];
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-        indices[i] = uvec3(slots_[triangles[i].x], slots_[triangles[i].y], slots_[triangles[i].z]);
-    for (const uint position : used)
-        slots_[position] = kNone;
-
+/// A mesh over the scene's own triangles; `vertices` are numbered as Scene::positions are.
+GeometryOwner EmbreeTree::makeTriangles(const Mesh& mesh, std::span<const vec3> vertices,
+                                        RTCBuildQuality quality) {
+    GeometryOwner geometry(rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_TRIANGLE));
+    device_->check("rtcNewGeometry");
+    rtcSetSharedGeometryBuffer(geometry.handle(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               vertices.data(), 0, sizeof(vec3), vertices.size());
+    rtcSetSharedGeometryBuffer(geometry.handle(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               &source_->triangles[mesh.first_triangle], 0, sizeof(uvec3),
+                               mesh.triangle_count);
+    device_->check("rtcSetSharedGeometryBuffer");
+    rtcSetGeometryBuildQuality(geometry.handle(), quality);
     rtcSetGeometryUserData(geometry.handle(), this);
     if ((source_->materials[mesh.material].flags & kMaterialMasked) != 0) {
         rtcSetGeometryIntersectFilterFunction(geometry.handle(), rejectHoles);
         rtcSetGeometryOccludedFilterFunction(geometry.handle(), rejectHoles);
     }
     rtcCommitGeometry(geometry.handle());
-    device.check("rtcCommitGeometry");
-    triangles_ += triangles.size();
+    device_->check("rtcCommitGeometry");
     return geometry;
 }
 
@@ -192,24 +203,32 @@ void EmbreeTree::rejectHoles(const RTCFilterFunctionNArguments* arguments) {
     }
 }
 
+void EmbreeTree::rejectLeft(const RTCFilterFunctionNArguments* arguments) {
+    const EmbreePart::Facing* facing = QueryContext::of(*arguments).part->facing.data();
+    const uint count = arguments->N;
+    for (uint i = 0; i < count; ++i)
+        if (arguments->valid[i] != 0 && facing[hitOf(arguments->hit, count, i).instance].has_left)
+            arguments->valid[i] = 0;
+}
+
 void EmbreeTree::keepNearest(const RTCFilterFunctionNArguments* arguments) {
-    const auto& tree = *static_cast<const EmbreeTree*>(arguments->geometryUserPtr);
-    const float* facing = tree.facing_.data();
-    auto& nearest_of = QueryContext::of(*arguments).nearest;
+    QueryContext& context = QueryContext::of(*arguments);
+    const EmbreePart::Facing* facing_of = context.part->facing.data();
     RTCRayN* rays = arguments->ray;
     RTCHitN* hits = arguments->hit;
     const uint count = arguments->N;
     for (uint i = 0; i < count; ++i) {
         if (arguments->valid[i] == 0)
             continue;
-        QueryContext::Nearest& nearest = nearest_of[RTCRayN_id(rays, count, i) % kPacket];
+        QueryContext::Nearest& nearest = context.nearest[RTCRayN_id(rays, count, i) % kPacket];
         float& t = RTCRayN_tfar(rays, count, i); // the candidate's
         const Hit hit = hitOf(hits, count, i);
         // Ray and normal stand in the same space here, the mesh's own if it is instanced.
         const float slope = RTCRayN_dir_x(rays, count, i) * RTCHitN_Ng_x(hits, count, i) +
                             RTCRayN_dir_y(rays, count, i) * RTCHitN_Ng_y(hits, count, i) +
                             RTCRayN_dir_z(rays, count, i) * RTCHitN_Ng_z(hits, count, i);
-        const bool is_unseen = facing[hit.instance] * slope > 0.0f;
+        const EmbreePart::Facing facing = facing_of[hit.instance];
+        const bool is_unseen = facing.back_sign * slope > 0.0f || facing.has_left;
         if (is_unseen || !isNearer(t, hit, nearest)) {
             arguments->valid[i] = 0;
             continue;
