@@ -8,9 +8,9 @@
 #include <string>
 
 namespace hone {
-namespace {
 
-OwnedBuffer createBuffer(const VulkanContext& context, std::size_t bytes, const char* name) {
+OwnedBuffer createBuffer(const VulkanContext& context, VkDeviceSize bytes, const char* name,
+                         const void* chain) {
     // Vulkan leaves sizes above its limits undefined, so they are refused here.
     const VulkanCandidate& device = context.chosen();
     const VkDeviceSize largest = std::min(device.max_buffer_bytes, device.max_allocation_bytes);
@@ -18,23 +18,18 @@ OwnedBuffer createBuffer(const VulkanContext& context, std::size_t bytes, const 
         throw OutOfMemory(std::string(name) + " needs " + std::to_string(bytes) + " bytes; " +
                           device.report.name + " gives a buffer at most " +
                           std::to_string(largest));
-    const VkBufferCreateInfo info{
-        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-        .pNext = nullptr,
-        .flags = 0,
-        .size = bytes,
-        .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                 VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
-                 VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
-        .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
-        .queueFamilyIndexCount = 0,
-        .pQueueFamilyIndices = nullptr};
+    const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+                                  .pNext = chain,
+                                  .flags = 0,
+                                  .size = bytes,
+                                  .usage = kBufferUsage,
+                                  .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
+                                  .queueFamilyIndexCount = 0,
+                                  .pQueueFamilyIndices = nullptr};
     OwnedBuffer buffer(context.device(), info, name);
     context.setName(VK_OBJECT_TYPE_BUFFER, buffer.handle(), name);
     return buffer;
 }
-
-} // namespace
 
 VulkanBuffer::VulkanBuffer(const VulkanContext& context, VulkanMemory& memory, std::size_t bytes,
                            std::string_view name)
@@ -51,7 +46,8 @@ VulkanBuffer::VulkanBuffer(const VulkanContext& context, VulkanMemory& memory, s
         memory.free(range_);
         throw;
     }
-    std::memset(range_.data, 0, bytes);
+    data_ = range_.data;
+    std::memset(data_, 0, bytes);
 }
 
 VulkanBuffer::~VulkanBuffer() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/backends/vulkan/vulkan_choice.h"
 
+#include "hone/backends/vulkan/vulkan_import.h"
 #include "hone/core/error.h"
 
 #include <algorithm>
@@ -120,6 +121,7 @@ VulkanCandidate examine(VkPhysicalDevice device) {
     require(queue_family.has_value(), "a queue for graphics and compute");
     found.queue_family = queue_family.value_or(0);
     found.report.usable = missing.empty();
+    found.host_import_alignment = hostImportAlignment(device);
 
     std::uint32_t count = 0;
     HONE_VULKAN(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr));

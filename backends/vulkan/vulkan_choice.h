@@ -17,7 +17,8 @@ struct VulkanCandidate {
     std::uint32_t queue_family = 0; ///< graphics and compute; valid if report.usable
     VkDeviceSize max_buffer_bytes = 0;
     VkDeviceSize max_allocation_bytes = 0;
-    bool multi_draw = false; ///< one indirect call may hold several draws
+    VkDeviceSize host_import_alignment = 0; ///< hostImportAlignment()
+    bool multi_draw = false;                ///< one indirect call may hold several draws
 };
 
 /// All physical devices in the loader's order, with what each lacks.

@@ -19,6 +19,10 @@ OwnedDevice openDevice(const VulkanCandidate& chosen) {
     features.v13.synchronization2 = VK_TRUE;
     features.v13.maintenance4 = VK_TRUE;
 
+    std::vector<const char*> extensions;
+    if (chosen.host_import_alignment > 0)
+        extensions.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
+
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .pNext = nullptr,
@@ -33,13 +37,21 @@ OwnedDevice openDevice(const VulkanCandidate& chosen) {
                                   .pQueueCreateInfos = &queue,
                                   .enabledLayerCount = 0,
                                   .ppEnabledLayerNames = nullptr,
-                                  .enabledExtensionCount = 0,
-                                  .ppEnabledExtensionNames = nullptr,
+                                  .enabledExtensionCount =
+                                      static_cast<std::uint32_t>(extensions.size()),
+                                  .ppEnabledExtensionNames = extensions.data(),
                                   .pEnabledFeatures = nullptr};
     VkDevice device = VK_NULL_HANDLE;
     checkResult(vkCreateDevice(chosen.device, &info, nullptr, &device), "vkCreateDevice",
                 chosen.report.name.c_str());
     return OwnedDevice(device);
+}
+
+VulkanCandidate chooseFor(const VulkanInstance& instance, const VulkanOptions& options) {
+    VulkanCandidate chosen = choose(findCandidates(instance), options.device);
+    if (!options.host_import)
+        chosen.host_import_alignment = 0;
+    return chosen;
 }
 
 double timestampPeriod(const VulkanCandidate& chosen) {
@@ -55,8 +67,8 @@ double timestampPeriod(const VulkanCandidate& chosen) {
 } // namespace
 
 VulkanContext::VulkanContext(const VulkanOptions& options)
-    : instance_(options), chosen_(choose(findCandidates(instance_), options.device)),
-      device_(openDevice(chosen_)), timestamp_period_ns_(timestampPeriod(chosen_)) {
+    : instance_(options), chosen_(chooseFor(instance_, options)), device_(openDevice(chosen_)),
+      timestamp_period_ns_(timestampPeriod(chosen_)) {
     vkGetDeviceQueue(device(), chosen_.queue_family, 0, &queue_);
     vkGetPhysicalDeviceMemoryProperties(chosen_.device, &memory_);
     const auto load = [this](const char* name) {

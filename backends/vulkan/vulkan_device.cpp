@@ -2,6 +2,7 @@
 #include "hone/backends/vulkan/vulkan_device.h"
 
 #include "hone/backends/vulkan/vulkan_encoder.h"
+#include "hone/backends/vulkan/vulkan_import.h"
 #include "hone/core/error.h"
 
 #include <algorithm>
@@ -27,6 +28,13 @@ public:
         VulkanBuffer buffer(resources_.context, resources_.memory, size, name);
         std::byte* data = buffer.data();
         return {*this, {resources_.buffers.add(std::move(buffer)), 0, size, data}};
+    }
+
+    Buffer importBuffer(std::span<std::byte> bytes, std::string_view name) override {
+        auto buffer = importHostMemory(resources_.context, bytes, name);
+        if (!buffer)
+            return {};
+        return {*this, {resources_.buffers.add(std::move(*buffer)), 0, bytes.size(), bytes.data()}};
     }
 
     BufferView viewOf(std::span<const std::byte> bytes) const override {

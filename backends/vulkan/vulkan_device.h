@@ -14,6 +14,9 @@ struct VulkanOptions {
     /// Turns on the Khronos validation layer (core and synchronisation). Throws DeviceError if it
     /// is not installed.
     bool validation = false;
+    /// Buffers may use memory of the host where it is (Device::importBuffer), as far as the device
+    /// can; false: everything is copied, as on a device that cannot.
+    bool host_import = true;
     /// Called for each validation message; a message is never swallowed: without a callback it is
     /// logged as a warning.
     std::function<void(std::string_view message)> on_message;

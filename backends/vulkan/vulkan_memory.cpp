@@ -5,7 +5,6 @@
 #include "hone/core/log.h"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 
 namespace hone {
@@ -18,7 +17,8 @@ VkDeviceSize roundUp(VkDeviceSize value, VkDeviceSize multiple) {
     return (value + multiple - 1) / multiple * multiple;
 }
 
-/// The first type that has all of `wanted`; types are listed best first by Vulkan's rules.
+} // namespace
+
 std::optional<std::uint32_t> findType(const VkPhysicalDeviceMemoryProperties& memory,
                                       std::uint32_t allowed, VkMemoryPropertyFlags wanted) {
     for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
@@ -26,6 +26,8 @@ std::optional<std::uint32_t> findType(const VkPhysicalDeviceMemoryProperties& me
             return i;
     return std::nullopt;
 }
+
+namespace {
 
 /// Mapped and coherent always. Cached before device-local: the host reads results through the
 /// mapping, and uncached reads over a bus are about a hundred times slower than the device's reads

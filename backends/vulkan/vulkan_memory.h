@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace hone {
@@ -16,6 +17,12 @@ struct MemoryRange {
     VkDeviceSize bytes = 0;    ///< at least what was asked
     std::byte* data = nullptr; ///< the host's view, already advanced by offset
 };
+
+/// The first type among `allowed` that has all of `wanted`; types are listed best first by Vulkan's
+/// rules.
+[[nodiscard]] std::optional<std::uint32_t> findType(const VkPhysicalDeviceMemoryProperties& memory,
+                                                    std::uint32_t allowed,
+                                                    VkMemoryPropertyFlags wanted);
 
 /// Memory of buffers: blocks of 64 MiB, mapped for their whole life, first fit; what is larger than
 /// a quarter of a block gets an allocation of its own. Freed ranges are joined and used again.

@@ -126,6 +126,15 @@ public:
 
     /// A mapped linear buffer, zeroed. `bytes` 0 is rounded up to one word.
     [[nodiscard]] virtual Buffer createBuffer(std::size_t bytes, std::string_view name) = 0;
+    /// A buffer that is these bytes of the host, used where they are, not copied. Empty if the
+    /// device cannot: the caller then makes a buffer and copies.
+    ///
+    /// `bytes` must start at a page and have the rest of its last page to itself (PagedVector), and
+    /// must stay where it is until the buffer is gone and the work that names it is done.
+    [[nodiscard]] virtual Buffer importBuffer(std::span<std::byte> /*bytes*/,
+                                              std::string_view /*name*/) {
+        return {};
+    }
     /// These bytes of the host as a stretch of one of this device's buffers; empty (data null) if
     /// they lie in none.
     [[nodiscard]] virtual BufferView viewOf(std::span<const std::byte> bytes) const = 0;

@@ -88,8 +88,8 @@ std::uint64_t Counters::get(std::string_view name) const {
 }
 
 /// Which of the instances were placed elsewhere, ascending.
-static std::vector<uint> movedInstances(const std::vector<Instance>& before,
-                                        const std::vector<Instance>& now) {
+static std::vector<uint> movedInstances(std::span<const Instance> before,
+                                        std::span<const Instance> now) {
     std::vector<uint> moved;
     for (uint i = 0; i < now.size(); ++i)
         if (std::memcmp(&before[i], &now[i], sizeof(Instance)) != 0)
@@ -125,7 +125,7 @@ TraceBackend& Tracers::get(std::string_view backend, const Value& scene_value) {
         found->backend->build(scene, scene_value.scene_buffers);
     found->version = scene.version;
     found->shape_version = scene.shape_version;
-    found->instances = scene.instances;
+    found->instances.assign(scene.instances.begin(), scene.instances.end());
     return *found->backend;
 }
 

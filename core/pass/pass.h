@@ -82,7 +82,7 @@ private:
         std::unique_ptr<TraceBackend> backend;
         std::uint64_t version = 0;
         std::uint64_t shape_version = 0;
-        std::vector<Instance> instances; ///< as they were placed then
+        std::vector<Instance> instances{}; ///< as they were placed then
     };
     const TraceBackendRegistry* registry_;
     Devices devices_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hone/core/device/page_allocator.h"
 #include "hone/core/math.h"
 #include "hone/core/scene/scene.glsl.h"
 
@@ -37,21 +38,24 @@ struct Bounds {
 /// metres, y up.
 ///
 /// Whoever fills it calls finishScene() once at the end; after that it is read only, except through
-/// methods below that say so. Names are untrusted text.
+/// functions below that say so. Names are untrusted text.
+///
+/// The arrays exist once: devices and tracers use them where they are. So, while buffers
+/// (SceneBuffers) or a tracer were made for it, no array may grow, shrink or move, the scene itself
+/// included; what stands in them may change between runs (moveInstance, touch).
 struct Scene {
-    std::vector<vec3> positions;  ///< object space
-    std::vector<vec3> normals;    ///< unit, as many as positions
-    std::vector<vec2> uvs;        ///< as many as positions; (0,0) is the texture's top left
-    std::vector<uvec3> triangles; ///< indices into positions; a mesh's are consecutive
-    std::vector<Mesh> meshes;
-    std::vector<Cluster> clusters;
-    std::vector<Instance> instances;
-    std::vector<Material> materials;
-    std::vector<Texture> textures;
-    std::vector<uint> texels;
-    std::vector<Light> lights;
-    std::vector<Probe> probes;
-    Environment environment{};
+    PagedVector<vec3> positions;  ///< object space
+    PagedVector<vec3> normals;    ///< unit, as many as positions
+    PagedVector<vec2> uvs;        ///< as many as positions; (0,0) is the texture's top left
+    PagedVector<uvec3> triangles; ///< indices into positions; a mesh's are consecutive
+    PagedVector<Mesh> meshes;
+    PagedVector<Cluster> clusters;
+    PagedVector<Instance> instances;
+    PagedVector<Material> materials;
+    PagedVector<Texture> textures;
+    PagedVector<uint> texels;
+    PagedVector<Light> lights;
+    PagedVector<Probe> probes;
 
     std::vector<CameraDesc> cameras; ///< at least one after finishScene
     std::vector<std::string> instance_names;
@@ -65,6 +69,10 @@ struct Scene {
     std::uint64_t version = 0;
     /// The version at which anything but the placement of instances last changed.
     std::uint64_t shape_version = 0;
+
+    /// What surrounds it all. Starts a page and is the last member, so that like an array it has
+    /// its pages to itself.
+    alignas(kPageBytes) Environment environment{};
 
     /// The camera of that name; the first for "". Throws SceneError that lists the names.
     [[nodiscard]] const CameraDesc& camera(std::string_view camera_name) const;
@@ -82,7 +90,8 @@ void touch(Scene& scene);
 
 /// Places an instance of a finished scene elsewhere: its matrices, its winding, the scene's bounds
 /// (which only grow) and version. Probes stay where they are. Tracers and buffers follow without
-/// being made anew. Throws SceneError if a number of the matrix is not finite.
+/// being made anew; no work that reads the scene may be going on, since they share its arrays.
+/// Throws SceneError if a number of the matrix is not finite.
 void moveInstance(Scene& scene, uint instance, const mat4x3& to_world);
 
 /// Opens "builtin:NAME", a *.scene.json, or a .gltf / .glb. Throws SceneError (bad content, missing

@@ -2,51 +2,41 @@
 #include "hone/core/scene/scene_buffers.h"
 
 #include "hone/core/error.h"
+#include "hone/core/scene/scene_arrays.h"
 
-#include <cmath>
+#include <algorithm>
 #include <cstring>
 
 namespace hone {
-const std::array<float, 256>& srgbTable() {
-    static const std::array<float, 256> decoded = [] {
-        std::array<float, 256> table{};
-        for (int i = 0; i < 256; ++i) {
-            const double encoded = i / 255.0;
-            table[static_cast<std::size_t>(i)] = static_cast<float>(
-                encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
-        }
-        return table;
-    }();
-    return decoded;
-}
 
 SceneBuffers::SceneBuffers(Device& device, const Scene& scene) {
-    auto add = [&]<class T>(std::string_view name, std::span<const T> elements) {
-        Buffer& buffer = buffers_.emplace_back(
-            device.createBuffer(std::max<std::size_t>(elements.size_bytes(), sizeof(T)), name));
+    forEachSceneArray(scene, [&]<class T>(std::string_view name, std::span<const T> elements) {
+        // Buffers are made for kernels that write too; a scene's are only read.
+        T* data = const_cast<T*>(elements.data());
+        Buffer buffer;
         if (!elements.empty())
-            std::memcpy(buffer.view().data, elements.data(), elements.size_bytes());
+            buffer =
+                device.importBuffer(std::as_writable_bytes(std::span(data, elements.size())), name);
+        const bool is_imported = static_cast<bool>(buffer);
+        if (!is_imported) {
+            buffer =
+                device.createBuffer(std::max<std::size_t>(elements.size_bytes(), sizeof(T)), name);
+            bytes_ += buffer.bytes();
+        }
         arguments_.push_back({name, buffer.view()});
-    };
-    add("scene_positions", std::span<const vec3>(scene.positions));
-    add("scene_normals", std::span<const vec3>(scene.normals));
-    add("scene_uvs", std::span<const vec2>(scene.uvs));
-    add("scene_triangles", std::span<const uvec3>(scene.triangles));
-    add("scene_meshes", std::span<const Mesh>(scene.meshes));
-    add("scene_instances", std::span<const Instance>(scene.instances));
-    add("scene_materials", std::span<const Material>(scene.materials));
-    add("scene_textures", std::span<const Texture>(scene.textures));
-    add("scene_texels", std::span<const uint>(scene.texels));
-    add("scene_srgb", std::span<const float>(srgbTable()));
-    add("scene_lights", std::span<const Light>(scene.lights));
-    add("scene_probes", std::span<const Probe>(scene.probes));
-    add("scene_environment", std::span<const Environment>(&scene.environment, 1));
+        if (!is_imported && !elements.empty()) {
+            copies_.push_back(arguments_.back());
+            std::memcpy(buffer.view().data, elements.data(), elements.size_bytes());
+        }
+        buffers_.push_back(std::move(buffer));
+    });
 }
 
 void SceneBuffers::update(const Scene& scene) {
     const std::span<const Instance> instances(scene.instances);
-    if (!instances.empty())
-        std::memcpy(find("scene_instances").data, instances.data(), instances.size_bytes());
+    const BufferView buffer = find("scene_instances");
+    if (!instances.empty() && buffer.as<Instance>().data() != instances.data())
+        std::memcpy(buffer.data, instances.data(), instances.size_bytes());
 }
 
 BufferView SceneBuffers::find(std::string_view name) const {
@@ -57,10 +47,7 @@ BufferView SceneBuffers::find(std::string_view name) const {
 }
 
 std::size_t SceneBuffers::bytes() const {
-    std::size_t total = 0;
-    for (const Buffer& buffer : buffers_)
-        total += buffer.bytes();
-    return total;
+    return bytes_;
 }
 
 } // namespace hone

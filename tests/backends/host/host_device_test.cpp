@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/backends/host/host_device.h"
 
+#include "hone/core/device/page_allocator.h"
 #include "hone/core/error.h"
 
 #include <gtest/gtest.h>
@@ -42,6 +43,18 @@ TEST_F(HostDevice, CannotRaster) {
     EXPECT_FALSE(device_->info().can_raster);
     EXPECT_THROW(static_cast<void>(device_->createImage({})), DeviceError);
     EXPECT_THROW(device_->encoder().beginRaster({}), DeviceError);
+}
+
+TEST_F(HostDevice, UsesImportedBytesWhereTheyAreAndLeavesThemToTheirOwner) {
+    PagedVector<uint> words(1000, 1u);
+    {
+        const Buffer imported =
+            device_->importBuffer(std::as_writable_bytes(std::span(words)), "words");
+        EXPECT_EQ(imported.as<uint>().data(), words.data());
+        EXPECT_EQ(imported.bytes(), 4000u);
+        dispatch(imported.view(), 2, 1000);
+    }
+    EXPECT_EQ(std::accumulate(words.begin(), words.end(), 0u), 3000u);
 }
 
 TEST_F(HostDevice, ZeroesBuffers) {

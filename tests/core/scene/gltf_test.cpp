@@ -72,18 +72,18 @@ TEST(Gltf, IndicesMayBeOf8And32BitsOrMissing) {
     SmallGltf bytes;
     const std::uint8_t small[] = {3, 2, 1};
     bytes.primitive()["indices"] = bytes.addAccessor(small, 5121, "SCALAR", 3);
-    EXPECT_EQ(load(bytes).triangles, std::vector<uvec3>{uvec3(3, 2, 1)});
+    EXPECT_EQ(load(bytes).triangles, PagedVector<uvec3>{uvec3(3, 2, 1)});
 
     SmallGltf words;
     const std::uint32_t large[] = {3, 2, 1};
     words.primitive()["indices"] = words.addAccessor(large, 5125, "SCALAR", 3);
-    EXPECT_EQ(load(words).triangles, std::vector<uvec3>{uvec3(3, 2, 1)});
+    EXPECT_EQ(load(words).triangles, PagedVector<uvec3>{uvec3(3, 2, 1)});
 
     SmallGltf none;
     none.primitive().erase("indices");
     for (std::size_t i = 0; i < 3; ++i)
         none.json["accessors"][i]["count"] = 3;
-    EXPECT_EQ(load(none).triangles, std::vector<uvec3>{uvec3(0, 1, 2)});
+    EXPECT_EQ(load(none).triangles, PagedVector<uvec3>{uvec3(0, 1, 2)});
 }
 
 TEST(Gltf, StripsAndFansKeepTheirWinding) {
