@@ -84,6 +84,8 @@ int demo(const DemoArguments& arguments, const Console& console) {
 
     // First only what the metrics flag: what smart image refinement saves.
     const Timed flagged = timedRun(*stage, job, console);
+    if (const int signal = InterruptGuard::requested())
+        return signal;
     const Executor& executor = *stage->executor;
     const double pixels = static_cast<double>(job.size.x) * job.size.y;
     const double share =
@@ -108,15 +110,17 @@ int demo(const DemoArguments& arguments, const Console& console) {
     // Then the rest, and pure ray tracing beside it: the two must be the same bits.
     stage->executor->setParameter("scope", "all");
     const Timed all = timedRun(*stage, job, console);
+    if (const int signal = InterruptGuard::requested())
+        return signal;
     const RgbImage refined = colorOf(executor);
     RenderArguments truth_job = job;
     truth_job.graph = "prt";
     truth_job.overrides = {{"samples", "16"}};
     const std::unique_ptr<Stage> truth_stage = makeStage(truth_job, console);
     const Timed truth = timedRun(*truth_stage, truth_job, console);
-    const RgbImage reference = colorOf(*truth_stage->executor);
     if (const int signal = InterruptGuard::requested())
         return signal;
+    const RgbImage reference = colorOf(*truth_stage->executor);
     const ImageDifference of_raster =
         compareImages(toDisplay({reference.extent,
                                  [&] {

@@ -103,7 +103,7 @@ std::vector<std::string> writeOutputs(const Executor& executor, const std::strin
             paths.push_back(directory + "/" + name + ".csv");
             writeFileAtomically(paths.back(), std::as_bytes(std::span(text)));
         }
-        if (value.type->shape != Shape::kPlane)
+        if (value.type->shape != Shape::kPlane || value.version == 0)
             continue;
         layered.extent = value.extent;
         layered.layers.push_back(toLayer(name, value));

@@ -39,6 +39,7 @@ Json report(const Stage& stage, const RenderArguments& arguments, double frame_m
     const double pixels = static_cast<double>(arguments.size.x) * arguments.size.y;
     const std::uint64_t error_pixels = executor.counters().get("error_pixels");
     const Curve* curve = findCurve(executor);
+    const bool has_looped = curve != nullptr && !curve->stop.empty();
     return {
         {"graph", executor.graph().name},
         {"scene", stage.scene.name},
@@ -52,7 +53,9 @@ Json report(const Stage& stage, const RenderArguments& arguments, double frame_m
         {"error_share", static_cast<double>(error_pixels) / pixels},
         {"rays", rays},
         {"iterations", curve != nullptr ? curve->records.size() : 0},
-        {"stop", curve != nullptr ? curve->stop : ""},
+        {"stop", has_looped                    ? curve->stop
+                 : InterruptGuard::requested() ? "cancelled"
+                                               : ""},
         {"validation_messages", stage.session.validationMessages()},
         {"outputs", paths}};
 }
@@ -114,7 +117,8 @@ int render(const RenderArguments& arguments, const Console& console) {
     const std::vector<std::string> paths =
         writeOutputs(*stage->executor, arguments.output_directory, provenanceOf(*stage, arguments));
     Json result = report(*stage, arguments, frame_ms, paths);
-    if (!arguments.reference.empty()) {
+    // A run that was cancelled early may have no colour yet.
+    if (!arguments.reference.empty() && stage->executor->output("color").version != 0) {
         const Value& color = stage->executor->output("color");
         const std::span<vec3> pixels = color.as<vec3>();
         const ImageDifference difference =

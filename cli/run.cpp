@@ -4,25 +4,31 @@
 #include "hone/cli/progress.h"
 #include "hone/core/error.h"
 
+#include <atomic>
 #include <csignal>
 #include <ostream>
 
 namespace hone::cli {
 namespace {
 
-volatile std::sig_atomic_t interrupt_signal = 0;
+// What a signal handler may touch.
+std::atomic<int> interrupt_signal = 0;
+std::atomic<bool> is_interrupted = false;
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 using Handler = void (*)(int);
 Handler previous_int = SIG_DFL;
 Handler previous_term = SIG_DFL;
 
 void remember(int signal) {
     interrupt_signal = signal;
+    is_interrupted = true;
 }
 
 } // namespace
 
 InterruptGuard::InterruptGuard() {
     interrupt_signal = 0;
+    is_interrupted = false;
     previous_int = std::signal(SIGINT, remember);
     previous_term = std::signal(SIGTERM, remember);
 }
@@ -63,9 +69,10 @@ void runWithProgress(Stage& stage, const RenderArguments& arguments, const Conso
     options.max_ms = arguments.max_ms;
     options.max_rays = arguments.max_rays;
     options.max_iterations = arguments.iterations;
+    options.cancel = &is_interrupted;
     options.on_iteration = [&](const LoopRecord& record) {
         progress.show(record);
-        return InterruptGuard::requested() == 0;
+        return true;
     };
     stage.executor->run(options);
 }

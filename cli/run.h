@@ -36,7 +36,7 @@ public:
     [[nodiscard]] static int requested();
 };
 
-/// Runs with live progress; stops early when interrupted.
+/// Runs with live progress; stops within 250 ms when interrupted while it traces.
 void runWithProgress(Stage& stage, const RenderArguments& arguments, const Console& console);
 
 /// The tracer that the graph's parameter "backend" names, "auto" resolved; "" for a graph that has

@@ -16,10 +16,19 @@ namespace hone {
 /// Limits and callbacks of one run; zero is no limit. They come on top of the graph's own stop
 /// rules and are looked at after each iteration of an outermost loop. A loop that one of them cut
 /// goes on in the next run; if something that it depends on changed, it begins anew.
+///
+/// max_ms and cancel also end a pass halfway that can give up (trace does, within 250 ms): its
+/// iteration then counts as not yet done, and what the loop carries is what the last whole one left
+/// (but for what passes before it in the iteration changed in place, as request its cursor). The
+/// next run goes on within the pass and ends at the same bits.
 struct RunOptions {
-    double max_ms = 0; ///< since run() was called
+    double max_ms = 0; ///< since run() was called; passes before the first loop run all the same
     std::uint64_t max_rays = 0;
     std::uint64_t max_iterations = 0;
+    /// Another thread or a signal handler sets it to end the run ("cancelled"). Before the first
+    /// loop began no further pass runs; after that, loops end, and passes behind them still make
+    /// their outputs of what is there. May be null.
+    const std::atomic<bool>* cancel = nullptr;
     /// Called after each iteration of an outermost loop that did something; returns false to stop
     /// there ("cancelled"). May be empty.
     std::function<bool(const LoopRecord&)> on_iteration{};
@@ -57,11 +66,12 @@ public:
     /// GraphError.
     void setParameter(const std::string& path, const std::string& value);
 
-    /// Runs to the end of every loop. Throws DeviceError, SceneError, OutOfMemory. A steady-state
-    /// run (nothing grew) does no heap allocation of its own.
+    /// Runs to the end of every loop, or to a limit. Throws DeviceError, SceneError, OutOfMemory. A
+    /// steady-state run (nothing grew) does no heap allocation of its own.
     void run(const RunOptions& options = {});
 
-    /// The value of a graph output after run(). Throws std::logic_error for an unknown name.
+    /// The value of a graph output after run(); its version is 0 if a cancelled run did not come to
+    /// write it. Throws std::logic_error for an unknown name.
     [[nodiscard]] const Value& output(std::string_view name) const;
     /// Any pass's output by "pass.port" or "loop.pass.port", after run(); null when culled, unknown
     /// or overwritten by a value that shares its memory (dump() tells which do).

@@ -46,9 +46,14 @@ void Executor::State::run(const RunOptions& run_options) {
     counters.clear();
     for (NodeState& node : nodes)
         node.ms = 0;
+    interrupt = {options->cancel, deadlineAfter(run_began, options->max_ms)};
     prepareInputs();
-    for (const NodeId id : graph.order)
-        runNode(id, 0);
+    bool has_looped = false;
+    for (const NodeId id : graph.order) {
+        has_looped |= graph.nodes[id].loop != kNoId;
+        if ((interrupt.isCancelled() && !has_looped) || !runNode(id, 0))
+            break;
+    }
     finishDevice();
     // A hardware device ran on after its passes were recorded; it alone knows how long.
     if (device != nullptr && !devices.raster->info().is_software)
@@ -88,11 +93,10 @@ void Executor::State::prepareInputs() {
     }
 }
 
-/// Must the node run? Compares what it would see with what it saw last.
-bool Executor::State::hasChanged(NodeId id, bool force) {
+/// Compares what the node would see with what it saw last.
+bool Executor::State::seesOther(NodeId id) const {
     const NodeState& state = nodes[id];
-    if (force || !state.has_run || state.seen_params != state.params_version ||
-        state.seen_extent != extent_version)
+    if (state.seen_params != state.params_version || state.seen_extent != extent_version)
         return true;
     const PlannedNode& node = graph.nodes[id];
     for (std::size_t i = 0; i < state.seen_versions.size(); ++i) {
@@ -115,39 +119,55 @@ void Executor::State::markSeen(NodeId id) {
     state.seen_extent = extent_version;
 }
 
-void Executor::State::runNode(NodeId id, uint iteration) {
+bool Executor::State::runNode(NodeId id, uint iteration, bool goes_on) {
     const bool is_loop = graph.nodes[id].loop != kNoId;
-    const bool has_changed = hasChanged(id, graph.nodes[id].is_every_iteration);
-    if (!has_changed && !(is_loop && loops[graph.nodes[id].loop].is_cut))
-        return;
+    const bool is_due = graph.nodes[id].is_every_iteration && !goes_on;
+    const bool is_new = is_due || !nodes[id].has_run || seesOther(id);
+    if (!is_new && !(is_loop && loops[graph.nodes[id].loop].is_cut))
+        return true;
     const Clock::time_point begin = Clock::now();
-    if (is_loop)
-        runLoop(id, has_changed);
-    else
-        runPass(id, iteration);
+    const bool is_done = is_loop ? runLoop(id, is_new) : runPass(id, iteration);
     nodes[id].ms += msSince(begin);
+    return is_done;
 }
 
-void Executor::State::runPass(NodeId id, uint iteration) {
+bool Executor::State::runPass(NodeId id, uint iteration) {
     NodeState& state = nodes[id];
     state.has_run = false;
-    markSeen(id);
-    for (std::size_t port = 0; port < state.outputs.size(); ++port)
-        prepareOutput(id, port);
+    const bool goes_on = std::exchange(state.gave_up, false) && !seesOther(id);
+    if (!goes_on) {
+        markSeen(id);
+        for (std::size_t port = 0; port < state.outputs.size(); ++port)
+            prepareOutput(id, port);
+    }
     if (state.chosen == host)
         finishDevice(); // the host must see what the device wrote
-    execute(id, iteration);
+    state.gave_up = !execute(id, iteration, goes_on);
     is_device_pending |= state.may_use_device;
     // On a software device nothing is won by waiting later, and time is told by pass.
     if (device != nullptr && devices.raster->info().is_software)
         finishDevice();
     for (const BoundPort& output : state.outputs)
-        output.value->version = ++last_version;
+        output.value->version = state.gave_up ? 0 : ++last_version;
+    if (state.gave_up)
+        return false;
     state.has_run = true;
     ++state.runs;
+    return true;
 }
 
-void Executor::State::execute(NodeId id, uint iteration) {
+/// When a pass is to give up: loops have time limits, and what is changed in place must be
+/// finished, for it cannot be done twice.
+Interrupt Executor::State::interruptOf(NodeId id) const {
+    const PlannedNode& node = graph.nodes[id];
+    if (std::ranges::any_of(node.outputs, [](const PlannedOutput& output) {
+            return output.in_place != InPlace::kNo;
+        }))
+        return {};
+    return node.parent != kNoId ? interrupt : Interrupt{.cancel = interrupt.cancel};
+}
+
+bool Executor::State::execute(NodeId id, uint iteration, bool goes_on) {
     const PlannedNode& node = graph.nodes[id];
     NodeState& state = nodes[id];
     PassContext context;
@@ -165,13 +185,20 @@ void Executor::State::execute(NodeId id, uint iteration) {
     context.tracers = &tracers;
     context.counters = &counters;
     context.iteration = iteration;
+    context.interrupt = interruptOf(id);
+    context.goes_on = goes_on;
     is_device_pending |= state.may_use_device; // also if it throws half-way
     const Scope scope(state.chosen == device ? device : nullptr, node.name);
-    state.pass->execute(context);
+    try {
+        state.pass->execute(context);
+    } catch (const Interrupted&) {
+        return false;
+    }
+    return true;
 }
 
 /// From the start, or on from where a limit cut it.
-void Executor::State::runLoop(NodeId id, bool is_new) {
+bool Executor::State::runLoop(NodeId id, bool is_new) {
     const PlannedLoop& loop = graph.loops[graph.nodes[id].loop];
     LoopState& state = loops[graph.nodes[id].loop];
     NodeState& node = nodes[id];
@@ -180,10 +207,11 @@ void Executor::State::runLoop(NodeId id, bool is_new) {
         markSeen(id);
         beginLoop(loop, state);
     }
-    iterate(loop, state, graph.nodes[id].parent == kNoId);
+    const bool is_done = iterate(loop, state, graph.nodes[id].parent == kNoId);
     values[loop.stats].version = ++last_version;
     node.has_run = true;
     ++node.runs;
+    return is_done;
 }
 
 void Executor::State::beginLoop(const PlannedLoop& loop, LoopState& state) {
@@ -192,6 +220,7 @@ void Executor::State::beginLoop(const PlannedLoop& loop, LoopState& state) {
     state.rays = state.pixels = 0;
     state.ms = 0;
     state.iteration = 0;
+    state.is_halfway = false;
     for (const PlannedCarry& carry : loop.carries) {
         if (carry.is_culled)
             continue;
@@ -209,27 +238,28 @@ void Executor::State::beginLoop(const PlannedLoop& loop, LoopState& state) {
     }
 }
 
-void Executor::State::iterate(const PlannedLoop& loop, LoopState& state, bool is_outermost) {
+/// An outermost loop always comes to an end: what a limit cut is worth as much as whole iterations.
+bool Executor::State::iterate(const PlannedLoop& loop, LoopState& state, bool is_outermost) {
     const Clock::time_point began = Clock::now();
     const double ms_before = state.ms;
-    const uint iterations_before = state.iteration;
+    const uint iterations_before = state.iteration - (state.is_halfway ? 1 : 0);
     std::uint64_t rays_before = raysSoFar();
     std::uint64_t pixels_before = counters.get(kPixels);
-    state.is_cut = false;
-    const char* stop = nullptr;
+    const char* stop = interrupt.isCancelled() ? "cancelled" : nullptr;
+    state.is_cut = stop != nullptr;
     while (stop == nullptr) {
-        ++state.iteration;
         const std::uint64_t pixels_so_far = state.pixels;
         const std::uint64_t rays_so_far = state.rays;
-        if (counters.get(kWorstExpect) != 0)
-            counters.set(kWorstExpect, 0);
-        for (const NodeId id : loop.body)
-            runNode(id, state.iteration);
-        carryOver(loop, state);
-
+        const bool is_whole = runBody(loop, state);
         state.rays += raysSoFar() - std::exchange(rays_before, raysSoFar());
         state.pixels += counters.get(kPixels) - std::exchange(pixels_before, counters.get(kPixels));
         state.ms = ms_before + msSince(began);
+        if (!is_whole) {
+            stop = interrupt.isCancelled() ? "cancelled" : "ms";
+            state.is_cut = true;
+            break;
+        }
+        carryOver(loop, state);
         state.curve.records.push_back(
             {.iteration = state.iteration,
              .pixels = state.pixels,
@@ -245,16 +275,35 @@ void Executor::State::iterate(const PlannedLoop& loop, LoopState& state, bool is
             state.curve.records.pop_back();
             break;
         }
-        if (!is_outermost)
-            continue;
-        const bool goes_on =
-            !options->on_iteration || options->on_iteration(state.curve.records.back());
+        const bool goes_on = !is_outermost || !options->on_iteration ||
+                             options->on_iteration(state.curve.records.back());
         if (stop == nullptr) {
-            stop = goes_on ? limitThatEnds(state.iteration - iterations_before) : "cancelled";
+            stop = goes_on ? limitThatEnds(is_outermost, state.iteration - iterations_before)
+                           : "cancelled";
             state.is_cut = stop != nullptr;
         }
     }
     state.curve.stop = stop;
+    return is_outermost || !state.is_cut;
+}
+
+/// An iteration from its start, or on from where it was cut. Returns whether it is whole.
+bool Executor::State::runBody(const PlannedLoop& loop, LoopState& state) {
+    bool goes_on = std::exchange(state.is_halfway, true);
+    if (!goes_on) {
+        ++state.iteration;
+        state.position = 0;
+        state.worst_expect_bits = 0;
+    }
+    if (counters.get(kWorstExpect) != state.worst_expect_bits)
+        counters.set(kWorstExpect, state.worst_expect_bits);
+    for (; state.position < loop.body.size(); ++state.position)
+        if (!runNode(loop.body[state.position], state.iteration, std::exchange(goes_on, false))) {
+            state.worst_expect_bits = counters.get(kWorstExpect);
+            return false;
+        }
+    state.is_halfway = false;
+    return true;
 }
 
 /// Hands every `next` value to its carried value, as if all at once.
@@ -316,13 +365,15 @@ const char* Executor::State::ruleThatEnds(const PlannedLoop& loop, const LoopSta
     return nullptr;
 }
 
-/// Which limit of the whole run is reached.
-const char* Executor::State::limitThatEnds(uint iterations) const {
-    if (options->max_rays > 0 && raysSoFar() >= options->max_rays)
+/// Which limit of the whole run is reached. Those of work count whole iterations of the outermost.
+const char* Executor::State::limitThatEnds(bool is_outermost, uint iterations) const {
+    if (interrupt.isCancelled())
+        return "cancelled";
+    if (is_outermost && options->max_rays > 0 && raysSoFar() >= options->max_rays)
         return "rays";
-    if (options->max_ms > 0 && msSince(run_began) >= options->max_ms)
+    if (interrupt.isDue())
         return "ms";
-    if (options->max_iterations > 0 && iterations >= options->max_iterations)
+    if (is_outermost && options->max_iterations > 0 && iterations >= options->max_iterations)
         return "iterations";
     return nullptr;
 }

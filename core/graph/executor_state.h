@@ -24,6 +24,7 @@ struct NodeState {
     std::uint64_t seen_params = 0;
     std::uint64_t seen_extent = 0;
     bool has_run = false; ///< false also after an exception: its outputs are worth nothing
+    bool gave_up = false; ///< it threw Interrupted when it ran last
 
     std::uint64_t params_version = 1; ///< of a loop: any parameter in it
     std::uint64_t runs = 0;
@@ -42,8 +43,11 @@ struct LoopState {
     std::uint64_t pixels = 0;
     double ms = 0;
     uint iteration = 0;
-    bool is_cut = false; ///< ended by RunOptions, not by its own rules: the next run goes on
-    std::vector<StagedValue> staged; ///< by carry; for NextBy::kStagedCopy
+    bool is_cut = false;      ///< ended by RunOptions, not by its own rules: the next run goes on
+    bool is_halfway = false;  ///< cut within an iteration, in this pass of the body:
+    std::size_t position = 0; ///< index into PlannedLoop::body
+    std::uint64_t worst_expect_bits = 0; ///< of that iteration so far
+    std::vector<StagedValue> staged;     ///< by carry; for NextBy::kStagedCopy
 };
 
 /// All that an executor owns. Members that passes point at come first, so that passes go first.
@@ -61,20 +65,23 @@ struct Executor::State {
 
     void run(const RunOptions& options);
     void prepareInputs();
-    bool hasChanged(NodeId id, bool force);
+    [[nodiscard]] bool seesOther(NodeId id) const;
     void markSeen(NodeId id);
 
-    void runNode(NodeId id, uint iteration);
-    void runPass(NodeId id, uint iteration);
-    void execute(NodeId id, uint iteration);
-    void finishDevice();
+    // Each returns whether it came to its end, or else is to go on in the next run.
+    [[nodiscard]] bool runNode(NodeId id, uint iteration, bool goes_on = false);
+    [[nodiscard]] bool runPass(NodeId id, uint iteration);
+    [[nodiscard]] bool execute(NodeId id, uint iteration, bool goes_on);
+    [[nodiscard]] bool runLoop(NodeId id, bool is_new);
+    [[nodiscard]] bool iterate(const PlannedLoop& loop, LoopState& state, bool is_outermost);
+    [[nodiscard]] bool runBody(const PlannedLoop& loop, LoopState& state);
 
-    void runLoop(NodeId id, bool is_new);
+    void finishDevice();
     void beginLoop(const PlannedLoop& loop, LoopState& state);
-    void iterate(const PlannedLoop& loop, LoopState& state, bool is_outermost);
+    [[nodiscard]] Interrupt interruptOf(NodeId id) const;
     void carryOver(const PlannedLoop& loop, LoopState& state);
     [[nodiscard]] const char* ruleThatEnds(const PlannedLoop& loop, const LoopState& state) const;
-    [[nodiscard]] const char* limitThatEnds(uint iterations) const;
+    [[nodiscard]] const char* limitThatEnds(bool is_outermost, uint iterations) const;
     [[nodiscard]] std::uint64_t raysSoFar() const;
 
     void prepareOutput(NodeId id, std::size_t port);
@@ -113,6 +120,7 @@ struct Executor::State {
 
     const RunOptions* options = nullptr; ///< of the run that goes on
     Clock::time_point run_began;
+    Interrupt interrupt; ///< the same in short
 };
 
 } // namespace hone

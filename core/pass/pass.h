@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hone/core/device/devices.h"
+#include "hone/core/interrupt.h"
 #include "hone/core/pass/param.h"
 #include "hone/core/pass/value.h"
 #include "hone/core/trace/trace_backend.h"
@@ -115,6 +116,10 @@ public:
     Tracers* tracers = nullptr;
     Counters* counters = nullptr;
     uint iteration = 0; ///< inside a loop, from 1; outside 0
+    Interrupt interrupt{};
+    /// The last execution threw Interrupted, and nothing that the pass sees changed since: it goes
+    /// on where it gave up. Outputs hold what it left in them.
+    bool goes_on = false;
 
     [[nodiscard]] const Value& in(std::string_view port, std::uint32_t element = 0) const;
     [[nodiscard]] bool has(std::string_view port) const;   ///< connected?
@@ -149,7 +154,9 @@ class RenderPass {
 public:
     virtual ~RenderPass() = default;
     /// Does the work. Throws DeviceError; SceneError when the scene lacks what the pass needs.
-    /// Allocates only when extent, scene or parameters grew.
+    /// Allocates only when extent, scene or parameters grew. May throw Interrupted once
+    /// context.interrupt is due, but each execution gets a little further, so that many short ones
+    /// come to the end of one long one.
     virtual void execute(PassContext& context) = 0;
 };
 

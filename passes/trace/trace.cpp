@@ -19,6 +19,9 @@
 //         exact      each ray is answered as if it were alone, whatever else is in the list (false)
 // counters  rays.primary, rays.shadow, rays.reflection
 //
+// Rays are asked for in slices; when the run is cancelled or out of time between two of them, it
+// goes on there in the next run.
+//
 //     "trace": { "type": "trace", "in": { "requests": "request.requests", "scene": "$scene",
 //                "camera": "$camera" }, "params": { "backend": "$backend", "samples": "$samples" }
 //                }
@@ -26,6 +29,7 @@
 // Source: Whitted, An Improved Illumination Model for Shaded Display, 1980; Amann, Chajdas,
 // Westermann 2012, section 4 (shadow and reflection rays, depth 3).
 #include "hone/core/error.h"
+#include "hone/core/trace/trace_slices.h"
 #include "hone/passes/passes.h"
 
 #include "hone_spirv/trace_resolve.h"
@@ -105,15 +109,19 @@ public:
                              std::to_string(room) +
                              "; set this pass's parameter \"samples\" to that of request");
         out.count = static_cast<uint>(samples);
+        if (!context.goes_on)
+            at_ = {};
         if (samples == 0)
             return;
 
         const TraceBackend& backend =
             context.tracers->get(context.param<std::string>("backend"), context.scene());
-        for (Wave wave; wave.first_request < requests.size();
-             wave.first_request += wave.requests, wave.first_slot += wave.paths) {
-            findEnd(wave, requests, *context.memory);
-            trace(context, wave, backend);
+        while (true) {
+            takeStep(context, requests, backend);
+            if (at_.wave.first_request == requests.size())
+                return;
+            if (context.interrupt.isDue())
+                throw Interrupted{};
         }
     }
 
@@ -153,43 +161,91 @@ private:
         occluded_.reserve<uint>(device, paths * light_count_);
     }
 
-    void trace(PassContext& context, const Wave& wave, const TraceBackend& backend) {
-        // Primary rays, one a request.
-        const Start::Params start{.camera = context.camera(),
-                                  .extent = context.extent,
-                                  .first_request = static_cast<uint>(wave.first_request),
-                                  .first_slot = static_cast<uint>(wave.first_slot)};
-        const std::array start_arguments{first_paths_.argument(), rays_.argument(),
-                                         paths_.argument()};
-        context.dispatch(kStart, start, static_cast<uint>(wave.requests), start_arguments);
-        context.chosen->finish();
-        backend.closest(rays_.as<Ray>().first(wave.requests), hits_.as<Hit>().first(wave.requests),
-                        Coherence::kCoherent, options_);
-        context.counters->add("rays.primary", wave.requests);
-
-        // Bounce after bounce; one past the last sees the environment only.
-        std::size_t paths = wave.paths;
-        for (uint bounce = 0; paths > 0; ++bounce) {
-            if (bounce > 0 && bounce <= max_depth_) {
-                backend.closest(rays_.as<Ray>().first(paths), hits_.as<Hit>().first(paths),
-                                Coherence::kIncoherent, options_);
-                context.counters->add("rays.reflection", paths);
-            } else if (bounce > max_depth_) {
-                std::ranges::fill(hits_.as<Hit>().first(paths), Hit{kNone, kNone});
+    void takeStep(PassContext& context, std::span<const uvec3> requests,
+                  const TraceBackend& backend) {
+        switch (at_.step) {
+        case Step::kStart:
+            findEnd(at_.wave, requests, *context.memory);
+            start(context, at_.wave);
+            at_.bounce = 0;
+            at_.paths = at_.wave.paths;
+            at_.step = Step::kClosest;
+            break;
+        case Step::kClosest:
+            findHits(context, backend);
+            at_.step = at_.paths > 0 ? Step::kShade : Step::kKeep;
+            break;
+        case Step::kShade:
+            shade(context);
+            at_.light = 0;
+            at_.step = Step::kOccluded;
+            break;
+        case Step::kOccluded:
+            findShadows(context, backend);
+            at_.step = Step::kKeep;
+            break;
+        case Step::kKeep:
+            at_.paths = keepSurvivors(*context.counters, at_.paths);
+            ++at_.bounce;
+            at_.step = Step::kClosest;
+            if (at_.paths == 0) {
+                at_.wave.first_request += at_.wave.requests;
+                at_.wave.first_slot += at_.wave.paths;
+                at_.step = Step::kStart;
             }
-            shade(context, bounce, static_cast<uint>(paths), backend);
-            const Survivors survivors = keepSurvivors(paths);
-            context.counters->add("rays.shadow", survivors.shadow_rays);
-            paths = survivors.paths;
+            break;
         }
     }
 
-    void shade(PassContext& context, uint bounce, uint paths, const TraceBackend& backend) {
-        const bool is_last = bounce > max_depth_;
-        const Shade::Params params{.path_count = paths,
-                                   .light_count = is_last ? 0 : light_count_,
-                                   .bounce = bounce,
-                                   .reflects = bounce + (ends_in_sky_ ? 0 : 1) <= max_depth_,
+    void start(PassContext& context, const Wave& wave) {
+        const Start::Params params{.camera = context.camera(),
+                                   .extent = context.extent,
+                                   .first_request = static_cast<uint>(wave.first_request),
+                                   .first_slot = static_cast<uint>(wave.first_slot)};
+        const std::array arguments{first_paths_.argument(), rays_.argument(), paths_.argument()};
+        context.dispatch(kStart, params, static_cast<uint>(wave.requests), arguments);
+        context.chosen->finish();
+    }
+
+    /// Asks for what is left of a query and counts it; throws Interrupted if it gave up with rays
+    /// left, so that the next execution asks for those.
+    template <class Answer>
+    void ask(PassContext& context, const TraceBackend& backend, TraceQuery<Answer> query,
+             std::string_view counter) {
+        const std::size_t before = std::exchange(at_.answered, 0);
+        query.answered = before;
+        query.options = options_;
+        const bool is_done = slices_.answer(backend, query, context.interrupt);
+        if (!counter.empty())
+            context.counters->add(counter, query.answered - before);
+        if (is_done)
+            return;
+        at_.answered = query.answered;
+        throw Interrupted{};
+    }
+
+    /// What primary rays (one a request) and reflected ones (one a path) hit; one bounce past the
+    /// last sees the environment only.
+    void findHits(PassContext& context, const TraceBackend& backend) {
+        const bool is_primary = at_.bounce == 0;
+        const std::size_t rays = is_primary ? at_.wave.requests : at_.paths;
+        const std::span<Hit> hits = hits_.as<Hit>().first(rays);
+        if (at_.bounce > max_depth_) {
+            std::ranges::fill(hits, Hit{kNone, kNone});
+            return;
+        }
+        ask(context, backend,
+            ClosestQuery{.rays = rays_.as<Ray>().first(rays),
+                         .answers = hits,
+                         .coherence = is_primary ? Coherence::kCoherent : Coherence::kIncoherent},
+            is_primary ? "rays.primary" : "rays.reflection");
+    }
+
+    void shade(PassContext& context) {
+        const Shade::Params params{.path_count = static_cast<uint>(at_.paths),
+                                   .light_count = lights(),
+                                   .bounce = at_.bounce,
+                                   .reflects = at_.bounce + (ends_in_sky_ ? 0 : 1) <= max_depth_,
                                    .tan_half_fov_y = context.camera().tan_half_fov_y,
                                    .height = context.extent.y,
                                    .seed_low = static_cast<uint>(context.seed),
@@ -198,28 +254,41 @@ private:
                                    hits_.argument(),       shadow_rays_.argument(),
                                    next_rays_.argument(),  light_radiance_.argument(),
                                    next_paths_.argument(), next_flags_.argument()};
-        context.dispatch(kShade, params, paths, arguments);
-        context.chosen->finish();
-        if (params.light_count == 0)
-            return;
-
-        // Shadow rays to one light start and end together.
-        for (std::size_t light = 0; light < light_count_; ++light)
-            backend.occluded(shadow_rays_.as<Ray>().subspan(light * paths, paths),
-                             occluded_.as<uint>().subspan(light * paths, paths),
-                             bounce == 0 ? Coherence::kCoherent : Coherence::kIncoherent, options_);
-        const std::array resolve_arguments{paths_.argument(), occluded_.argument(),
-                                           light_radiance_.argument()};
-        context.dispatch(kResolve, Resolve::Params{paths, light_count_}, paths, resolve_arguments);
+        context.dispatch(kShade, params, params.path_count, arguments);
         context.chosen->finish();
     }
+
+    /// Shadow rays to one light start and end together.
+    void findShadows(PassContext& context, const TraceBackend& backend) {
+        if (lights() == 0)
+            return;
+        while (at_.light < light_count_) {
+            ask(context, backend,
+                OccludedQuery{
+                    .rays = shadow_rays_.as<Ray>().subspan(at_.light * at_.paths, at_.paths),
+                    .answers = occluded_.as<uint>().subspan(at_.light * at_.paths, at_.paths),
+                    .coherence = at_.bounce == 0 ? Coherence::kCoherent : Coherence::kIncoherent},
+                ""); // those of paths that see the light are counted, when that is known
+            if (++at_.light < light_count_ && context.interrupt.isDue())
+                throw Interrupted{};
+        }
+        const std::array arguments{paths_.argument(), occluded_.argument(),
+                                   light_radiance_.argument()};
+        const uint paths = static_cast<uint>(at_.paths);
+        context.dispatch(kResolve, Resolve::Params{paths, light_count_}, paths, arguments);
+        context.chosen->finish();
+    }
+
+    /// Lights that hits of this bounce see.
+    [[nodiscard]] uint lights() const { return at_.bounce > max_depth_ ? 0 : light_count_; }
 
     struct Survivors {
         std::size_t paths = 0, shadow_rays = 0;
     };
 
-    /// Moves the paths that go on together, in their order: counts by block, then copies.
-    Survivors keepSurvivors(std::size_t paths) {
+    /// Moves the paths that go on together, in their order: counts by block, then copies. Returns
+    /// how many they are; counts the shadow rays.
+    std::size_t keepSurvivors(Counters& counters, std::size_t paths) {
         constexpr std::size_t kBlock = 4096;
         const std::span<const uint> flags = next_flags_.as<uint>();
         const std::span<const Path> next_paths = next_paths_.as<Path>();
@@ -242,8 +311,9 @@ private:
             all.shadow_rays += block.shadow_rays;
             all.paths += std::exchange(block.paths, all.paths);
         }
+        counters.add("rays.shadow", all.shadow_rays);
         if (all.paths == 0)
-            return all;
+            return 0;
         tbb::parallel_for(std::size_t{0}, blocks_.size(), [&](std::size_t block) {
             std::size_t kept = blocks_[block].paths;
             for (std::size_t i = block * kBlock; i < end(block); ++i) {
@@ -255,9 +325,23 @@ private:
                 ++kept;
             }
         });
-        return all;
+        return all.paths;
     }
 
+    /// What a wave does next: each step leaves all that the others need, so that an execution that
+    /// gave up goes on where it was.
+    enum class Step : std::uint8_t { kStart, kClosest, kShade, kOccluded, kKeep };
+    struct Position {
+        Wave wave;
+        Step step = Step::kStart;
+        uint bounce = 0;
+        std::size_t paths = 0;    ///< of this bounce
+        std::size_t light = 0;    ///< whose shadow rays are asked for
+        std::size_t answered = 0; ///< rays of the query that is asked for
+    };
+
+    Position at_;
+    TraceSlices slices_;
     TraceOptions options_;
     uint light_count_ = 0;
     uint max_depth_ = 0;

@@ -69,6 +69,18 @@ PassRun& PassRun::tracers(const TraceBackendRegistry& registry) {
     return *this;
 }
 
+PassRun& PassRun::interrupt(const Interrupt& value) {
+    context_.interrupt = value;
+    return *this;
+}
+
+PassRun& PassRun::goOn() {
+    context_.goes_on = true;
+    execute();
+    context_.goes_on = false;
+    return *this;
+}
+
 PassRun& PassRun::input(std::string_view port, const Value& value) {
     inputSlot(port).value = value;
     return *this;

@@ -48,6 +48,7 @@ public:
     PassRun& scene(const Scene& scene);
     PassRun& camera(const Camera& camera);
     PassRun& tracers(const TraceBackendRegistry& registry);
+    PassRun& interrupt(const Interrupt& value);
 
     /// Feeds a plane, one element a pixel. A second call on a port that takes several edges adds an
     /// edge; on another port it replaces the content. `edge_params` in the order of
@@ -69,6 +70,8 @@ public:
     PassRun& input(std::string_view port, const Value& value);
 
     PassRun& execute();
+    /// The same after an execution that threw Interrupted.
+    PassRun& goOn();
 
     /// The valid elements of an output after execute().
     template <class T> [[nodiscard]] std::vector<T> output(std::string_view port) const {

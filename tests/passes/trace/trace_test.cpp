@@ -288,6 +288,41 @@ TEST(Trace, IsTheSameBitsAtAnyThreadCount) {
     EXPECT_TRUE(results[0] == results[2]);
 }
 
+// With no time at all an execution still takes a step: many of them are one without a limit.
+TEST(Trace, GoesOnWhereItGaveUpToTheSameBits) {
+    const Scene scene = busyScene();
+    std::vector<uvec3> requests;
+    for (int k = 0; k < 6; ++k) // two waves
+        for (const uvec3& request : allPixels(0, 8))
+            requests.push_back(request);
+    TraceRun whole(scene, kAhead, 8), cut(scene, kAhead, 8);
+    for (TraceRun* run : {&whole, &cut})
+        run->extent(kExtent).seed(1).list("requests", requests);
+    whole.execute();
+    cut.interrupt({.deadline = Interrupt::Clock::now()});
+    int executions = 1;
+    try {
+        cut.execute();
+    } catch (const Interrupted&) {
+        for (bool is_done = false; !is_done; ++executions)
+            try {
+                cut.goOn();
+                is_done = true;
+            } catch (const Interrupted&) {
+                continue;
+            }
+    }
+    // Each wave asks for primary rays, for reflections three times, and after each for two lights.
+    EXPECT_GT(executions, 2 * 4 * 2);
+    EXPECT_TRUE(cut.output<Sample>("samples") == whole.output<Sample>("samples"));
+    for (const char* counter : {"rays.primary", "rays.shadow", "rays.reflection"})
+        EXPECT_EQ(cut.counter(counter), whole.counter(counter)) << counter;
+
+    // Executed anew, it does not go on.
+    cut.interrupt({}).execute();
+    EXPECT_TRUE(cut.output<Sample>("samples") == whole.output<Sample>("samples"));
+}
+
 class TraceVulkan : public VulkanTest {};
 
 TEST_F(TraceVulkan, ShadesAsTheHostDoes) {

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Ctrl-C while a graph runs.
+#include "hone/cli/commands.h"
+#include "hone/tests/cli/command_run.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+namespace hone::cli {
+namespace {
+
+/// Sends a signal to this process again and again from some time on, which whoever does not expect
+/// it ignores.
+class Nagging {
+public:
+    explicit Nagging(int signal)
+        : signal_(signal), previous_(std::signal(signal, SIG_IGN)),
+          thread_([signal](const std::stop_token& stop) {
+              std::this_thread::sleep_for(std::chrono::milliseconds(600));
+              for (; !stop.stop_requested();
+                   std::this_thread::sleep_for(std::chrono::milliseconds(10)))
+                  std::raise(signal);
+          }) {}
+    ~Nagging() {
+        thread_.request_stop();
+        thread_.join();
+        std::signal(signal_, previous_);
+    }
+    Nagging(const Nagging&) = delete;
+    Nagging& operator=(const Nagging&) = delete;
+
+private:
+    int signal_;
+    void (*previous_)(int);
+    std::jthread thread_;
+};
+
+class InterruptedRender : public testing::TestWithParam<std::pair<int, int>> {};
+
+// Half a minute's work in iterations of half a second.
+TEST_P(InterruptedRender, EndsWithItsCodeAndWritesWhatIsThere) {
+    const auto [signal, code] = GetParam();
+    const TemporaryFolder folder;
+    const Nagging nagging(signal);
+    const auto begin = std::chrono::steady_clock::now();
+    const CommandRun run =
+        runHone({"render", "prt", "--scene", "builtin:cornell", "--size", "64x48", "--set",
+                 "samples=20000", "--set", "batch=64", "-o", folder.path("out"), "--json"});
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+    EXPECT_EQ(run.code, code) << run.err;
+    EXPECT_LT(passed.count(), 5);
+    const nlohmann::json report = run.json();
+    EXPECT_EQ(report["stop"], "cancelled");
+    for (const nlohmann::json& path : report["outputs"])
+        EXPECT_TRUE(std::filesystem::is_regular_file(path.get<std::string>())) << path;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, InterruptedRender,
+                         testing::Values(std::pair(SIGINT, 130), std::pair(SIGTERM, 143)),
+                         [](const auto& test) {
+                             return test.param.first == SIGINT ? "Sigint" : "Sigterm";
+                         });
+
+} // namespace
+} // namespace hone::cli
