@@ -40,12 +40,14 @@ Json report(const Stage& stage, const RenderArguments& arguments, double frame_m
     const std::uint64_t error_pixels = executor.counters().get("error_pixels");
     const Curve* curve = findCurve(executor);
     const bool has_looped = curve != nullptr && !curve->stop.empty();
+    const Tracers::Resolved backend = backendOf(stage);
     return {
         {"graph", executor.graph().name},
         {"scene", stage.scene.name},
         {"size", {arguments.size.x, arguments.size.y}},
         {"device", stage.devices.raster != nullptr ? stage.devices.raster->info().name : "none"},
-        {"backend", backendOf(*stage.executor)},
+        {"backend", backend.name},
+        {"backend_reason", backend.reason},
         {"seed", arguments.seed},
         {"passes", passes},
         {"frame_ms", frame_ms},
@@ -92,7 +94,7 @@ Provenance provenanceOf(const Stage& stage, const RenderArguments& arguments) {
             {"hone.parameters", parameters},
             {"hone.scene", stage.scene.name},
             {"hone.camera", arguments.camera},
-            {"hone.backend", backendOf(*stage.executor)},
+            {"hone.backend", std::string(backendOf(stage).name)},
             {"hone.seed", std::to_string(arguments.seed)},
             {"hone.version", HONE_VERSION}};
 }

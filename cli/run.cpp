@@ -77,9 +77,11 @@ void runWithProgress(Stage& stage, const RenderArguments& arguments, const Conso
     stage.executor->run(options);
 }
 
-std::string backendOf(Executor& executor) {
-    const PlannedParam* param = executor.graph().findParam("backend");
-    return param == nullptr ? "" : executor.tracers().resolve(std::get<std::string>(param->value));
+Tracers::Resolved backendOf(const Stage& stage) {
+    const PlannedParam* param = stage.executor->graph().findParam("backend");
+    if (param == nullptr)
+        return {};
+    return stage.executor->tracers().resolve(std::get<std::string>(param->value), stage.scene);
 }
 
 const Curve* findCurve(const Executor& executor) {

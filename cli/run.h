@@ -39,9 +39,9 @@ public:
 /// Runs with live progress; stops within 250 ms when interrupted while it traces.
 void runWithProgress(Stage& stage, const RenderArguments& arguments, const Console& console);
 
-/// The tracer that the graph's parameter "backend" names, "auto" resolved; "" for a graph that has
-/// no such parameter.
-[[nodiscard]] std::string backendOf(Executor& executor);
+/// The tracer that the graph's parameter "backend" names, "auto" resolved, and why; empty for a
+/// graph that has no such parameter.
+[[nodiscard]] Tracers::Resolved backendOf(const Stage& stage);
 
 /// The curve of the first loop whose statistics are an output; null if there is none.
 [[nodiscard]] const Curve* findCurve(const Executor& executor);

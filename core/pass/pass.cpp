@@ -2,6 +2,7 @@
 #include "hone/core/pass/pass.h"
 
 #include "hone/core/error.h"
+#include "hone/core/log.h"
 #include "hone/core/pass/pass_type.h"
 #include "hone/core/scene/scene_buffers.h"
 
@@ -97,25 +98,57 @@ static std::vector<uint> movedInstances(std::span<const Instance> before,
     return moved;
 }
 
-std::string Tracers::resolve(std::string_view backend) const {
-    if (backend != "auto")
-        return std::string(backend);
-    return registry_->preferred();
+/// What "auto" stands for.
+TracerChoice& Tracers::choose(const Scene& scene) {
+    if (masked_version_ != scene.version) {
+        is_masked_ = hasMasked(scene);
+        masked_version_ = scene.version;
+    }
+    TracerChoice& choice = choices_[is_masked_ ? 1 : 0];
+    if (choice.name.empty()) {
+        choice = chooseTracer(*registry_, devices_, is_masked_);
+        logger().info("trace backend {}: {}", choice.name, choice.reason);
+    }
+    return choice;
 }
 
-std::unique_ptr<TraceBackend> Tracers::make(std::string_view backend) const {
-    return registry_->create(resolve(backend), devices_);
+Tracers::Resolved Tracers::resolve(std::string_view backend, const Scene& scene) {
+    if (backend != "auto")
+        return {backend, "asked for by name"};
+    const TracerChoice& choice = choose(scene);
+    return {choice.name, choice.reason};
+}
+
+static void requireMasks(const TraceBackend& backend, std::string_view name, const Scene& scene) {
+    if (hasMasked(scene) && !backend.caps().masked)
+        throw DeviceError("trace backend \"" + std::string(name) +
+                          "\" does not honour alpha-masked materials, which scene \"" + scene.name +
+                          "\" has; set parameter \"backend\" to \"auto\"");
+}
+
+std::unique_ptr<TraceBackend> Tracers::make(std::string_view backend, const Scene& scene) {
+    const std::string_view name = resolve(backend, scene).name;
+    // The one that was tried need not be made again.
+    std::unique_ptr<TraceBackend> made;
+    if (backend == "auto")
+        made = std::move(choose(scene).backend);
+    if (made == nullptr)
+        made = registry_->create(name, devices_);
+    requireMasks(*made, name, scene);
+    return made;
 }
 
 TraceBackend& Tracers::get(std::string_view backend, const Value& scene_value) {
     const Scene& scene = *scene_value.scene;
-    const std::string resolved = resolve(backend);
-    auto found = std::ranges::find(built_, resolved, &Built::name);
+    const std::string_view name = resolve(backend, scene).name;
+    auto found = std::ranges::find(built_, name, &Built::name);
     if (found == built_.end())
-        found = built_.insert(built_.end(), Built{resolved, make(resolved), 0, 0, {}});
+        found =
+            built_.insert(built_.end(), Built{std::string(name), make(backend, scene), 0, 0, {}});
     if (found->version == scene.version)
         return *found->backend;
 
+    requireMasks(*found->backend, name, scene);
     // If it fails halfway, the next call builds anew.
     const bool only_moved = found->version != 0 && found->shape_version == scene.shape_version;
     found->version = 0;

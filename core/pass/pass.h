@@ -5,7 +5,7 @@
 #include "hone/core/interrupt.h"
 #include "hone/core/pass/param.h"
 #include "hone/core/pass/value.h"
-#include "hone/core/trace/trace_backend.h"
+#include "hone/core/trace/tracer_choice.h"
 
 #include <span>
 #include <string>
@@ -63,19 +63,26 @@ private:
     std::vector<Counter> items_;
 };
 
-/// Gives out trace backends that are built for a scene; owned by the executor.
+/// Gives out trace backends that are built for a scene; owned by the executor. Throws DeviceError
+/// for a backend that cannot be made here, or cannot do what the scene needs.
 class Tracers {
 public:
     Tracers(const TraceBackendRegistry& registry, const Devices& devices)
         : registry_(&registry), devices_(devices) {}
-    /// The backend of that name ("auto" = the preferred one), built for the current version of a
-    /// value of type Scene. Where only instances moved since, it is updated.
+    /// The backend of that name (or "auto"), built for the current version of a value of type
+    /// Scene. Where only instances moved since, it is updated.
     [[nodiscard]] TraceBackend& get(std::string_view backend, const Value& scene);
-    /// A backend of that name for the caller alone, not built: to ask about another scene than the
-    /// graph's.
-    [[nodiscard]] std::unique_ptr<TraceBackend> make(std::string_view backend) const;
-    /// The name that "auto" stands for.
-    [[nodiscard]] std::string resolve(std::string_view backend) const;
+    /// A backend of that name (or "auto") for the caller alone, not built: to ask about another
+    /// scene than the graph's.
+    [[nodiscard]] std::unique_ptr<TraceBackend> make(std::string_view backend, const Scene& scene);
+
+    struct Resolved {
+        std::string_view name;
+        std::string_view reason; ///< for people
+    };
+    /// What a name stands for: itself, or what chooseTracer() picks for "auto". It picks once, and
+    /// once more for scenes with masked materials.
+    [[nodiscard]] Resolved resolve(std::string_view backend, const Scene& scene);
 
 private:
     struct Built {
@@ -85,9 +92,14 @@ private:
         std::uint64_t shape_version = 0;
         std::vector<Instance> instances{}; ///< as they were placed then
     };
+    [[nodiscard]] TracerChoice& choose(const Scene& scene);
+
     const TraceBackendRegistry* registry_;
     Devices devices_;
     std::vector<Built> built_;
+    TracerChoice choices_[2]; ///< without and with masked materials; no name: not yet made
+    bool is_masked_ = false;  ///< whether the scene of this version has some:
+    std::uint64_t masked_version_ = 0;
 };
 
 /// An input or output of a running pass, with its port's name.

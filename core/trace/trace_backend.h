@@ -100,13 +100,13 @@ public:
     /// Makes a backend that may use these devices. Throws DeviceError that says what is missing.
     using Factory = std::function<std::unique_ptr<TraceBackend>(const Devices&)>;
     void add(std::string name, std::string doc, Factory factory);
-    /// In order of preference: "auto" is the first.
+    /// As they were added: in order of preference among equally fast ones.
     [[nodiscard]] std::vector<std::string> names() const;
-    /// What "auto" stands for. Throws std::logic_error if there is none.
+    /// The first. Throws std::logic_error if there is none.
     [[nodiscard]] const std::string& preferred() const;
     [[nodiscard]] bool contains(std::string_view name) const;
-    /// Throws std::logic_error for a name that is not there ("auto" is resolved by the caller to
-    /// preferred()).
+    /// Throws std::logic_error for a name that is not there ("auto" is none: see
+    /// chooseTracer()).
     [[nodiscard]] std::unique_ptr<TraceBackend> create(std::string_view name,
                                                        const Devices& devices) const;
 

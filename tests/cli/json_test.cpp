@@ -76,12 +76,15 @@ TEST(Json, RenderReportsWhatItDid) {
                  "batch=1024", "--seed", "7", "-o", folder.path("out"), "--json"});
     ASSERT_EQ(run.code, kOk) << run.err;
     const nlohmann::json report = run.json();
-    expectKeys(report, {"graph", "scene", "size", "device", "backend", "seed", "passes", "frame_ms",
-                        "error_pixels", "error_share", "rays", "iterations", "stop", "outputs"});
+    expectKeys(report, {"graph", "scene", "size", "device", "backend", "backend_reason", "seed",
+                        "passes", "frame_ms", "error_pixels", "error_share", "rays", "iterations",
+                        "stop", "outputs"});
     EXPECT_EQ(report["graph"], "prt");
     EXPECT_EQ(report["scene"], "builtin:cornell");
     EXPECT_EQ(report["size"], nlohmann::json({64, 48}));
     EXPECT_EQ(report["seed"], 7);
+    EXPECT_NE(report["backend"], "auto");
+    EXPECT_NE(report["backend_reason"], "");
     // 64 * 48 = 3072 pixels: three batches of 1024 and one that finds nothing left.
     EXPECT_EQ(report["rays"]["primary"], 3072);
     EXPECT_EQ(report["stop"], "empty");

@@ -116,7 +116,7 @@ public:
             is_done[instance.mesh] = true;
             const Scene object = alone(scene, instance);
             const std::unique_ptr<TraceBackend> backend =
-                context.tracers->make(context.param<std::string>("backend"));
+                context.tracers->make(context.param<std::string>("backend"), object);
             backend->build(object);
             bake(object, *backend, context.param<uint>("rays"), occlusion);
             context.counters->add("rays.self_occlusion", rays_traced_);
