@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/core/trace/instancing.h"
 
+#include <glm/mat3x3.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -8,10 +10,15 @@
 namespace hone {
 
 bool isInvertible(const Instance& instance) {
-    constexpr float kLimit = 1e6f;
+    // Not from normal_matrix: that of a flattening matrix holds cofactors, which are finite.
+    const glm::dmat3 linear(instance.to_world[0], instance.to_world[1], instance.to_world[2]);
+    const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                               glm::cross(linear[0], linear[1]));
+    const double determinant = std::fabs(glm::dot(linear[0], cofactors[0]));
+    constexpr double kLimit = 1e6;
     for (int column = 0; column < 3; ++column) // no NaN is below the limit
         for (int row = 0; row < 3; ++row)
-            if (!(std::fabs(instance.normal_matrix[column][row]) < kLimit))
+            if (!(std::fabs(cofactors[column][row]) < kLimit * determinant))
                 return false;
     return true;
 }
