@@ -10,7 +10,7 @@
 namespace hone {
 
 OwnedBuffer createBuffer(const VulkanContext& context, VkDeviceSize bytes, const char* name,
-                         const void* chain) {
+                         const void* chain, VkBufferUsageFlags usage) {
     // Vulkan leaves sizes above its limits undefined, so they are refused here.
     const VulkanCandidate& device = context.chosen();
     const VkDeviceSize largest = std::min(device.max_buffer_bytes, device.max_allocation_bytes);
@@ -22,7 +22,7 @@ OwnedBuffer createBuffer(const VulkanContext& context, VkDeviceSize bytes, const
                                   .pNext = chain,
                                   .flags = 0,
                                   .size = bytes,
-                                  .usage = kBufferUsage,
+                                  .usage = usage,
                                   .sharingMode = VK_SHARING_MODE_EXCLUSIVE,
                                   .queueFamilyIndexCount = 0,
                                   .pQueueFamilyIndices = nullptr};

@@ -17,7 +17,8 @@ inline constexpr VkBufferUsageFlags kBufferUsage =
 /// A buffer without memory, which `chain` says more of. Throws OutOfMemory, naming it, for a size
 /// that the device does not give.
 [[nodiscard]] OwnedBuffer createBuffer(const VulkanContext& context, VkDeviceSize bytes,
-                                       const char* name, const void* chain = nullptr);
+                                       const char* name, const void* chain = nullptr,
+                                       VkBufferUsageFlags usage = kBufferUsage);
 
 /// A buffer for every use that hone has, and the bytes of the host that it is. Move-only.
 class VulkanBuffer {

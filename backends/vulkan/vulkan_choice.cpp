@@ -2,11 +2,11 @@
 #include "hone/backends/vulkan/vulkan_choice.h"
 
 #include "hone/backends/vulkan/vulkan_import.h"
+#include "hone/backends/vulkan/vulkan_ray_features.h"
 #include "hone/core/error.h"
 
 #include <algorithm>
 #include <cctype>
-#include <cstring>
 #include <optional>
 
 namespace hone {
@@ -45,12 +45,6 @@ std::optional<std::uint32_t> findQueueFamily(VkPhysicalDevice device) {
         if ((families[i].queueFlags & kWanted) == kWanted)
             return i;
     return std::nullopt;
-}
-
-bool hasExtension(const std::vector<VkExtensionProperties>& extensions, const char* name) {
-    return std::ranges::any_of(extensions, [name](const VkExtensionProperties& extension) {
-        return std::strcmp(extension.extensionName, name) == 0;
-    });
 }
 
 bool canBe(VkPhysicalDevice device, VkFormat format, VkFormatFeatureFlags features) {
@@ -123,13 +117,9 @@ VulkanCandidate examine(VkPhysicalDevice device) {
     found.report.usable = missing.empty();
     found.host_import_alignment = hostImportAlignment(device);
 
-    std::uint32_t count = 0;
-    HONE_VULKAN(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr));
-    std::vector<VkExtensionProperties> extensions(count);
-    HONE_VULKAN(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()));
-    found.report.ray_query = hasExtension(extensions, VK_KHR_RAY_QUERY_EXTENSION_NAME);
-    found.report.ray_pipeline =
-        hasExtension(extensions, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
+    const RayTracing rays = findRayTracing(device);
+    found.report.ray_query = rays.query;
+    found.report.ray_pipeline = rays.pipeline;
     return found;
 }
 

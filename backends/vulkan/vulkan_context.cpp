@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/backends/vulkan/vulkan_context.h"
 
+#include "hone/backends/vulkan/vulkan_ray_features.h"
 #include "hone/core/log.h"
 
 #include <string>
@@ -9,6 +10,7 @@ namespace hone {
 namespace {
 
 OwnedDevice openDevice(const VulkanCandidate& chosen) {
+    VulkanRayFeatures rays({chosen.report.ray_query, chosen.report.ray_pipeline});
     VulkanFeatures features;
     features.core.features.geometryShader = VK_TRUE;
     features.core.features.drawIndirectFirstInstance = VK_TRUE;
@@ -18,8 +20,10 @@ OwnedDevice openDevice(const VulkanCandidate& chosen) {
     features.v13.dynamicRendering = VK_TRUE;
     features.v13.synchronization2 = VK_TRUE;
     features.v13.maintenance4 = VK_TRUE;
+    features.v12.bufferDeviceAddress = rays.extensions.empty() ? VK_FALSE : VK_TRUE;
+    features.v13.pNext = rays.chain;
 
-    std::vector<const char*> extensions;
+    std::vector<const char*> extensions = rays.extensions;
     if (chosen.host_import_alignment > 0)
         extensions.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
 
@@ -49,6 +53,8 @@ OwnedDevice openDevice(const VulkanCandidate& chosen) {
 
 VulkanCandidate chooseFor(const VulkanInstance& instance, const VulkanOptions& options) {
     VulkanCandidate chosen = choose(findCandidates(instance), options.device);
+    chosen.report.ray_query = chosen.report.ray_query && options.ray_tracing;
+    chosen.report.ray_pipeline = chosen.report.ray_pipeline && options.ray_tracing;
     if (!options.host_import)
         chosen.host_import_alignment = 0;
     return chosen;

@@ -3,6 +3,8 @@
 
 #include "hone/backends/vulkan/vulkan_encoder.h"
 #include "hone/backends/vulkan/vulkan_import.h"
+#include "hone/backends/vulkan/vulkan_inside.h"
+#include "hone/backends/vulkan/vulkan_tracers.h"
 #include "hone/core/error.h"
 
 #include <algorithm>
@@ -76,6 +78,8 @@ public:
 
     CommandEncoder& encoder() override { return encoder_; }
     std::vector<ScopeTiming> takeTimings() override { return encoder_.takeTimings(); }
+    const VulkanDeviceReport& report() const { return resources_.context.chosen().report; }
+    VulkanInside inside() { return {&resources_, &encoder_}; }
 
 private:
     void destroyBuffer(std::uint64_t handle) override {
@@ -95,6 +99,18 @@ private:
 };
 
 } // namespace
+
+VulkanInside insideOf(Device& device) {
+    auto* const own = dynamic_cast<VulkanDevice*>(&device);
+    return own != nullptr ? own->inside() : VulkanInside{};
+}
+
+RayTracing rayTracing(const Device& device) {
+    const auto* const own = dynamic_cast<const VulkanDevice*>(&device);
+    if (own == nullptr)
+        return {};
+    return {.query = own->report().ray_query, .pipeline = own->report().ray_pipeline};
+}
 
 std::unique_ptr<Device> makeVulkanDevice(const VulkanOptions& options) {
     return std::make_unique<VulkanDevice>(options);

@@ -14,6 +14,9 @@ struct VulkanOptions {
     /// Turns on the Khronos validation layer (core and synchronisation). Throws DeviceError if it
     /// is not installed.
     bool validation = false;
+    /// Opens the device with its ray queries and ray pipelines, as far as it offers them; false
+    /// leaves them off (a driver whose trees are broken).
+    bool ray_tracing = true;
     /// Buffers may use memory of the host where it is (Device::importBuffer), as far as the device
     /// can; false: everything is copied, as on a device that cannot.
     bool host_import = true;
@@ -30,9 +33,9 @@ struct VulkanOptions {
 struct VulkanDeviceReport {
     std::string name, driver, api_version;
     bool usable = false;
-    std::string missing; ///< why not, "" if usable
-    bool ray_query = false;
-    bool ray_pipeline = false;
+    std::string missing;       ///< why not, "" if usable
+    bool ray_query = false;    ///< tracers may ask from any kernel
+    bool ray_pipeline = false; ///< tracers may run ray generation and hit shaders
 };
 /// All devices in the loader's order, usable or not. Throws DeviceError if there is no driver.
 [[nodiscard]] std::vector<VulkanDeviceReport> listVulkanDevices();

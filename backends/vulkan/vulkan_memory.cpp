@@ -46,6 +46,27 @@ std::uint32_t bufferType(const VkPhysicalDeviceMemoryProperties& memory, std::ui
     throw DeviceError("the device offers no host-visible, coherent memory for buffers");
 }
 
+/// Where the device reads fastest, mapped or not.
+std::uint32_t deviceType(const VkPhysicalDeviceMemoryProperties& memory, std::uint32_t allowed) {
+    auto type = findType(memory, allowed, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    if (!type)
+        type = findType(memory, allowed, 0);
+    HONE_ASSERT(type.has_value(), "an object that no memory suits");
+    return *type;
+}
+
+/// Memory for one object, which `chain` says more of.
+OwnedMemory allocateOne(const VulkanContext& context, VkDeviceSize bytes, std::uint32_t type,
+                        const void* chain, const char* about) {
+    const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                    .pNext = chain,
+                                    .allocationSize = bytes,
+                                    .memoryTypeIndex = type};
+    OwnedMemory memory(context.device(), info, about);
+    context.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, memory.handle(), about);
+    return memory;
+}
+
 } // namespace
 
 VulkanMemory::Block& VulkanMemory::addBlock(VkDeviceSize bytes, std::uint32_t type,
@@ -145,23 +166,24 @@ void VulkanMemory::free(const MemoryRange& range) {
 
 OwnedMemory VulkanMemory::allocateForImage(const VkMemoryRequirements& needs, VkImage image,
                                            const char* about) {
-    auto type =
-        findType(context_->memory(), needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-    if (!type)
-        type = findType(context_->memory(), needs.memoryTypeBits, 0);
-    HONE_ASSERT(type.has_value(), about);
     const VkMemoryDedicatedAllocateInfo dedicated{
         .sType = VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO,
         .pNext = nullptr,
         .image = image,
         .buffer = VK_NULL_HANDLE};
-    const VkMemoryAllocateInfo info{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                    .pNext = &dedicated,
-                                    .allocationSize = needs.size,
-                                    .memoryTypeIndex = *type};
-    OwnedMemory memory(context_->device(), info, about);
-    context_->setName(VK_OBJECT_TYPE_DEVICE_MEMORY, memory.handle(), about);
-    return memory;
+    return allocateOne(*context_, needs.size, deviceType(context_->memory(), needs.memoryTypeBits),
+                       &dedicated, about);
+}
+
+OwnedMemory VulkanMemory::allocateAddressed(const VkMemoryRequirements& needs, bool is_mapped,
+                                            const char* about) const {
+    const VkMemoryAllocateFlagsInfo flags{.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO,
+                                          .pNext = nullptr,
+                                          .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT,
+                                          .deviceMask = 0};
+    const std::uint32_t type = is_mapped ? bufferType(context_->memory(), needs.memoryTypeBits)
+                                         : deviceType(context_->memory(), needs.memoryTypeBits);
+    return allocateOne(*context_, needs.size, type, &flags, about);
 }
 
 } // namespace hone

@@ -42,6 +42,11 @@ public:
     [[nodiscard]] OwnedMemory allocateForImage(const VkMemoryRequirements& needs, VkImage image,
                                                const char* about);
 
+    /// Memory for one buffer that shaders reach by its address: mapped and coherent, or where the
+    /// device reads fastest.
+    [[nodiscard]] OwnedMemory allocateAddressed(const VkMemoryRequirements& needs, bool is_mapped,
+                                                const char* about) const;
+
     [[nodiscard]] VkDeviceSize bytesInUse() const { return bytes_in_use_; }
 
 private:

@@ -110,4 +110,34 @@ struct OwnedGraphicsPipelineTraits {
 using OwnedComputePipeline = VulkanObject<OwnedComputePipelineTraits>;
 using OwnedGraphicsPipeline = VulkanObject<OwnedGraphicsPipelineTraits>;
 
+/// A device function of an extension, which the loader's library does not export.
+#define HONE_DEVICE_CALL(device, name)                                                             \
+    reinterpret_cast<PFN_##name>(vkGetDeviceProcAddr((device), #name))
+
+struct OwnedAccelerationStructureTraits {
+    using Handle = VkAccelerationStructureKHR;
+    using Info = VkAccelerationStructureCreateInfoKHR;
+    static constexpr const char* kCreate = "vkCreateAccelerationStructureKHR";
+    static VkResult create(VkDevice device, const Info* info, const VkAllocationCallbacks* host,
+                           Handle* tree) {
+        return HONE_DEVICE_CALL(device, vkCreateAccelerationStructureKHR)(device, info, host, tree);
+    }
+    static void destroy(VkDevice device, Handle tree, const VkAllocationCallbacks* host) {
+        HONE_DEVICE_CALL(device, vkDestroyAccelerationStructureKHR)(device, tree, host);
+    }
+};
+struct OwnedRayPipelineTraits {
+    using Handle = VkPipeline;
+    using Info = VkRayTracingPipelineCreateInfoKHR;
+    static constexpr const char* kCreate = "vkCreateRayTracingPipelinesKHR";
+    static VkResult create(VkDevice device, const Info* info, const VkAllocationCallbacks* host,
+                           VkPipeline* pipeline) {
+        return HONE_DEVICE_CALL(device, vkCreateRayTracingPipelinesKHR)(
+            device, VK_NULL_HANDLE, VK_NULL_HANDLE, 1, info, host, pipeline);
+    }
+    static constexpr auto destroy = vkDestroyPipeline;
+};
+using OwnedAccelerationStructure = VulkanObject<OwnedAccelerationStructureTraits>;
+using OwnedRayPipeline = VulkanObject<OwnedRayPipelineTraits>;
+
 } // namespace hone
