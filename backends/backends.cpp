@@ -3,12 +3,23 @@
 
 #include "hone/backends/brute/brute_backend.h"
 #include "hone/backends/embree/embree_backend.h"
+#include "hone/backends/vulkan/vulkan_tracers.h"
+#include "hone/backends/vulkan_tracer.h"
 
 namespace hone {
 
 void registerTraceBackends(TraceBackendRegistry& registry) {
     registry.add("embree", "Embree on all cores",
                  [](const Devices&) { return makeEmbreeBackend(); });
+    registry.add("vulkan", "the Vulkan device, in the best way it offers", makeVulkanTracer);
+    registry.add("vulkan.ray_query", "ray queries of the Vulkan device",
+                 [](const Devices& devices) {
+                     return makeRayQueryTracer(vulkanOf(devices, "vulkan.ray_query"));
+                 });
+    registry.add("vulkan.ray_pipeline", "ray pipelines of the Vulkan device",
+                 [](const Devices& devices) {
+                     return makeRayPipelineTracer(vulkanOf(devices, "vulkan.ray_pipeline"));
+                 });
     registry.add("brute", "every ray against every triangle: the reference, for tiny scenes",
                  [](const Devices&) { return makeBruteBackend(); });
 }

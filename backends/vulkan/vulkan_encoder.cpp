@@ -127,23 +127,55 @@ void VulkanEncoder::dispatch(const Kernel& kernel, const Arguments& arguments,
     const uint groups = (count - 1) / pipeline.workgroup + 1;
     const uint rows = (groups - 1) / widest + 1;
     const uint row_groups = (groups - 1) / rows + 1;
-    const KernelHeader header{count, row_groups * pipeline.workgroup};
+    const VkCommandBuffer commands = next();
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.handle());
+    bindArguments(interface, VK_PIPELINE_BIND_POINT_COMPUTE, arguments);
+    pushParams(interface, count, row_groups * pipeline.workgroup, params);
+    vkCmdDispatch(commands, row_groups, rows, 1);
+}
+
+void VulkanEncoder::traceRays(const RayShaders& shaders, const Arguments& arguments,
+                              std::span<const std::byte> params, uint count) {
+    HONE_ASSERT(params.size() == shaders.params_bytes, shaders.name);
+    if (count == 0)
+        return;
+    auto& pipelines = resources_->ray_pipelines;
+    auto found = pipelines.find(shaders.generation.data());
+    if (found == pipelines.end())
+        found = pipelines
+                    .emplace(shaders.generation.data(),
+                             makeRayPipeline(resources_->context, resources_->memory, shaders))
+                    .first;
+    const RayPipeline& pipeline = found->second;
+
+    // A row is at least 65,535 invocations by the standard.
+    constexpr uint kRow = 1u << 15;
+    const uint rows = (count - 1) / kRow + 1;
+    const uint row = rows > 1 ? kRow : count;
+    const VkCommandBuffer commands = next();
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline.pipeline.handle());
+    bindArguments(pipeline.interface, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, arguments);
+    pushParams(pipeline.interface, count, row, params);
+    const VkStridedDeviceAddressRegionKHR no_callables{};
+    const auto trace = HONE_DEVICE_CALL(resources_->context.device(), vkCmdTraceRaysKHR);
+    trace(commands, &pipeline.generation, &pipeline.miss, &pipeline.hit, &no_callables, row, rows,
+          1);
+}
+
+void VulkanEncoder::pushParams(const ShaderInterface& interface, uint count, uint row,
+                               std::span<const std::byte> params) {
+    const KernelHeader header{count, row};
     std::array<std::byte, kMaxPushConstants> constants;
     const std::size_t bytes = sizeof(header) + params.size();
     HONE_ASSERT(bytes == interface.push_constant_bytes && bytes <= constants.size(),
-                std::string(kernel.name) + ": Params has " + std::to_string(params.size()) +
+                interface.name + ": Params has " + std::to_string(params.size()) +
                     " bytes in C++; the shader's push constants have " +
                     std::to_string(interface.push_constant_bytes));
     std::memcpy(constants.data(), &header, sizeof(header));
     if (!params.empty())
         std::memcpy(constants.data() + sizeof(header), params.data(), params.size());
-
-    const VkCommandBuffer commands = next();
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.handle());
-    bindArguments(interface, VK_PIPELINE_BIND_POINT_COMPUTE, arguments);
-    vkCmdPushConstants(commands, interface.layout.handle(), interface.stages, 0,
+    vkCmdPushConstants(commands_, interface.layout.handle(), interface.stages, 0,
                        static_cast<std::uint32_t>(bytes), constants.data());
-    vkCmdDispatch(commands, row_groups, rows, 1);
 }
 
 void VulkanEncoder::copy(BufferView source, BufferView target) {

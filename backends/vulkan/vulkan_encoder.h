@@ -28,16 +28,23 @@ public:
     void endScope() override;
     void finish() override;
 
+    /// Traces `count` rays. Arguments and parameters are bound as for a kernel.
+    void traceRays(const RayShaders& shaders, const Arguments& arguments,
+                   std::span<const std::byte> params, uint count);
+    /// For work of the backend's own, one operation at a time: starts recording if need be, and
+    /// orders what comes after all that was recorded.
+    [[nodiscard]] VkCommandBuffer next();
     [[nodiscard]] bool isRecording() const { return is_recording_; }
     [[nodiscard]] std::vector<ScopeTiming> takeTimings() { return scopes_.take(); }
 
 private:
-    /// Starts recording if need be, and orders what comes after all that was recorded.
-    VkCommandBuffer next();
     [[nodiscard]] VkCommandBuffer recorded() const;
     [[nodiscard]] VkBuffer buffer(BufferView view, std::string_view what);
     void bindArguments(const ShaderInterface& interface, VkPipelineBindPoint point,
                        const Arguments& arguments);
+    /// Pushes what every kernel's parameters begin with, and the parameters.
+    void pushParams(const ShaderInterface& interface, uint count, uint row,
+                    std::span<const std::byte> params);
     void submitAndWait();
     void reset();
 

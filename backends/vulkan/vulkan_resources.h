@@ -3,6 +3,7 @@
 
 #include "hone/backends/vulkan/vulkan_descriptors.h"
 #include "hone/backends/vulkan/vulkan_image.h"
+#include "hone/backends/vulkan/vulkan_ray_table.h"
 
 #include <unordered_map>
 
@@ -27,6 +28,8 @@ struct VulkanResources {
     VulkanSlots<RasterPipeline> raster_pipelines;
     /// By the address of the kernel's SPIR-V, which lives as long as the program.
     std::unordered_map<const std::uint32_t*, ComputePipeline> compute_pipelines;
+    /// By the address of the generation shader's SPIR-V.
+    std::unordered_map<const std::uint32_t*, RayPipeline> ray_pipelines;
     VulkanDescriptors descriptors;
 };
 

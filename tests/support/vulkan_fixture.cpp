@@ -52,15 +52,25 @@ private:
 auto* const shared_device =
     static_cast<SharedDevice*>(testing::AddGlobalTestEnvironment(new SharedDevice));
 
-} // namespace
-
-VulkanOptions VulkanTest::options() {
+VulkanOptions checkedOptions() {
     VulkanOptions result;
     if (const char* name = std::getenv("HONE_TEST_DEVICE"))
         result.device = name;
     result.validation = true;
     result.on_message = [](std::string_view message) { messages().emplace_back(message); };
     return result;
+}
+
+} // namespace
+
+Device& sharedVulkanDevice() {
+    if (Device* const device = shared_device->get(checkedOptions()))
+        return *device;
+    throw DeviceError(shared_device->skipReason());
+}
+
+VulkanOptions VulkanTest::options() {
+    return checkedOptions();
 }
 
 Device& VulkanTest::device() {

@@ -23,4 +23,8 @@ protected:
     [[nodiscard]] static VulkanOptions options();
 };
 
+/// The device that VulkanTest's tests share, for tests with another fixture: a message of the layer
+/// fails the program at its end. Throws DeviceError, with the reason, where there is none.
+[[nodiscard]] Device& sharedVulkanDevice();
+
 } // namespace hone
