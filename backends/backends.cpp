@@ -2,7 +2,9 @@
 #include "hone/backends/backends.h"
 
 #include "hone/backends/brute/brute_backend.h"
+#include "hone/backends/bvh/bvh_backend.h"
 #include "hone/backends/embree/embree_backend.h"
+#include "hone/backends/embree/embree_bvh.h"
 #include "hone/backends/vulkan/vulkan_tracers.h"
 #include "hone/backends/vulkan_tracer.h"
 
@@ -20,6 +22,13 @@ void registerTraceBackends(TraceBackendRegistry& registry) {
                  [](const Devices& devices) {
                      return makeRayPipelineTracer(vulkanOf(devices, "vulkan.ray_pipeline"));
                  });
+    registry.add("vulkan.compute", "compute shaders of the Vulkan device",
+                 [](const Devices& devices) {
+                     return makeComputeTracer(vulkanOf(devices, "vulkan.compute"));
+                 });
+    registry.add(
+        "bvh", "the same traversal as vulkan.compute, on all cores",
+        [](const Devices& devices) { return makeBvhTracer(*devices.host, buildEmbreeBvh); });
     registry.add("brute", "every ray against every triangle: the reference, for tiny scenes",
                  [](const Devices&) { return makeBruteBackend(); });
 }

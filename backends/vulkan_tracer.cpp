@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/backends/vulkan_tracer.h"
 
+#include "hone/backends/bvh/bvh_backend.h"
+#include "hone/backends/embree/embree_bvh.h"
 #include "hone/backends/vulkan/vulkan_tracers.h"
 #include "hone/core/error.h"
 #include "hone/core/log.h"
@@ -8,16 +10,6 @@
 #include <string>
 
 namespace hone {
-namespace {
-
-/// The way that works on every Vulkan device.
-std::unique_ptr<TraceBackend> makeComputeTracer(Device& device) {
-    throw DeviceError("vulkan: " + device.info().name +
-                      " offers neither VK_KHR_ray_query nor VK_KHR_ray_tracing_pipeline, and this "
-                      "build has no vulkan.compute; trace with embree instead");
-}
-
-} // namespace
 
 Device& vulkanOf(const Devices& devices, const char* tracer) {
     if (devices.raster == nullptr)
@@ -25,6 +17,10 @@ Device& vulkanOf(const Devices& devices, const char* tracer) {
                           " needs a Vulkan device, and there is none (hone doctor says what is "
                           "missing); trace with embree instead");
     return *devices.raster;
+}
+
+std::unique_ptr<TraceBackend> makeComputeTracer(Device& device) {
+    return makeBvhTracer(device, buildEmbreeBvh, {.name = "vulkan.compute"});
 }
 
 std::unique_ptr<TraceBackend> makeVulkanTracer(const Devices& devices) {

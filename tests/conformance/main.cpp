@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/backends/brute/brute_backend.h"
+#include "hone/backends/bvh/binned_builder.h"
+#include "hone/backends/bvh/bvh_backend.h"
 #include "hone/backends/embree/embree_backend.h"
+#include "hone/backends/host/host_device.h"
 #include "hone/backends/vulkan/vulkan_tracers.h"
 #include "hone/tests/conformance/conformance.h"
 #include "hone/tests/support/vulkan_fixture.h"
+
+namespace hone {
+namespace {
+
+/// Shared by all tests of the program.
+Device& hostDevice() {
+    static const std::unique_ptr<Device> device = makeHostDevice();
+    return *device;
+}
+
+} // namespace
+} // namespace hone
 
 int main(int argc, char** argv) {
     using namespace hone;
@@ -22,6 +37,24 @@ int main(int argc, char** argv) {
     test::addTracer({.name = "vulkan_ray_pipeline",
                      .make = [] { return makeRayPipelineTracer(sharedVulkanDevice()); },
                      .is_slow = true});
+    test::addTracer(
+        {.name = "bvh", .make = [] { return makeBvhTracer(hostDevice(), buildBinnedBvh, {}); }});
+    test::addTracer({.name = "bvh_instances", .make = [] {
+                         return makeBvhTracer(hostDevice(), buildBinnedBvh,
+                                              {.flatten_triangles = 0});
+                     }});
+    test::addTracer({.name = "vulkan_compute",
+                     .make = [] { return makeBvhTracer(sharedVulkanDevice(), buildBinnedBvh, {}); },
+                     .is_slow = true,
+                     .memory = [] { return &sharedVulkanDevice(); }});
+    test::addTracer({.name = "vulkan_compute_instances",
+                     .make =
+                         [] {
+                             return makeBvhTracer(sharedVulkanDevice(), buildBinnedBvh,
+                                                  {.flatten_triangles = 0});
+                         },
+                     .is_slow = true,
+                     .memory = [] { return &sharedVulkanDevice(); }});
     testing::InitGoogleTest(&argc, argv);
     return RUN_ALL_TESTS();
 }

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hone/backends/bvh/bvh_backend.h"
+
+#include "hone/backends/bvh/bvh_kernels.h"
+#include "hone/backends/bvh/bvh_scene.h"
+#include "hone/core/error.h"
+#include "hone/core/scene/scene_buffers.h"
+#include "hone/core/trace/query_memory.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <optional>
+
+namespace hone {
+namespace {
+
+/// Rays of one dispatch at most: their buffers can be bound everywhere, and no dispatch runs long.
+constexpr std::size_t kMostRays = std::size_t{1} << 19;
+
+/// Elements of a buffer as they can be bound: from the last multiple of 256 bytes on.
+struct Window {
+    BufferView view;
+    uint first; ///< of the elements
+
+    Window(BufferView whole, std::size_t element_bytes, std::size_t index, std::size_t count) {
+        constexpr std::size_t kAlignment = 256;
+        const std::size_t begin = whole.offset + index * element_bytes;
+        // Backwards at most to the buffer's begin, which is aligned; without a handle's offset (any
+        // bytes of the host) there is nothing before.
+        const std::size_t aligned = begin / kAlignment * kAlignment;
+        view = {whole.handle, aligned, begin - aligned + count * element_bytes,
+                whole.data + index * element_bytes - (begin - aligned)};
+        first = static_cast<uint>((begin - aligned) / element_bytes);
+    }
+};
+
+class BvhBackend final : public TraceBackend {
+public:
+    BvhBackend(Device& device, BvhBuilder builder, BvhParams params)
+        : device_(&device), builder_(std::move(builder)), params_(std::move(params)),
+          query_(device), unfinished_(device.createBuffer(sizeof(uint), "bvh_unfinished")) {}
+
+    TraceCaps caps() const override {
+        const DeviceInfo& info = device_->info();
+        return {.name = params_.name,
+                .version = info.driver.empty() ? "1" : info.driver,
+                .runs_on = info.driver.empty() ? "host" : info.name,
+                .memory = info.driver.empty() ? TraceMemory::kHost : TraceMemory::kDevice,
+                .always_exact = true,
+                .settles_ties = true,
+                .updates = true};
+    }
+
+    BuildStats build(const Scene& scene, const SceneBuffers* shared) override {
+        const auto begin = std::chrono::steady_clock::now();
+        tree_.reset();
+        own_buffers_.reset();
+        scene_ = &scene;
+        shared_ = shared;
+        tree_.emplace(scene, builder_, params_.flatten_triangles);
+        nodes_ = upload(tree_->nodes(), "bvh_nodes");
+        skips_ = upload(tree_->skips(), "bvh_skips");
+        triangles_ = upload(tree_->triangles(), "bvh_triangles");
+        instances_ = upload(tree_->instances(), "bvh_instances");
+
+        // Only holes of masks need the scene itself.
+        if (tree_->isMasked() && shared_ == nullptr)
+            own_buffers_.emplace(*device_, scene);
+        return stats(begin);
+    }
+
+    BuildStats update(std::span<const uint> moved) override {
+        HONE_ASSERT(tree_.has_value(), "build() comes before update()");
+        const auto begin = std::chrono::steady_clock::now();
+        tree_->update(moved);
+        write(tree_->nodes(), nodes_);
+        write(tree_->triangles(), triangles_);
+        write(tree_->instances(), instances_);
+        if (own_buffers_)
+            own_buffers_->update(*scene_);
+        return stats(begin);
+    }
+
+    void closest(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence,
+                 const TraceOptions&) const override {
+        HONE_ASSERT(rays.size() == hits.size(), "one hit a ray");
+        if (isEmpty())
+            std::ranges::fill(hits, Hit{kNone, kNone});
+        else
+            answer(kBvhClosest, rays, std::as_writable_bytes(hits), sizeof(Hit), coherence);
+    }
+
+    void occluded(std::span<const Ray> rays, std::span<uint> occluded, Coherence coherence,
+                  const TraceOptions&) const override {
+        HONE_ASSERT(rays.size() == occluded.size(), "one answer a ray");
+        if (isEmpty())
+            std::ranges::fill(occluded, 0u);
+        else
+            answer(kBvhOccluded, rays, std::as_writable_bytes(occluded), sizeof(uint), coherence);
+    }
+
+private:
+    [[nodiscard]] bool isEmpty() const {
+        HONE_ASSERT(tree_.has_value(), "build() comes before the first query");
+        return tree_->worldNodes() == 0;
+    }
+
+    template <class T> Buffer upload(std::span<const T> records, const char* name) const {
+        const std::size_t most = device_->info().max_binding_bytes;
+        if (records.size_bytes() > most)
+            throw DeviceError(params_.name + ": " + name + " of " + scene_->name + " take " +
+                              std::to_string(records.size_bytes()) + " bytes; " +
+                              device_->info().name + " reads at most " + std::to_string(most) +
+                              " from one buffer. Trace it with another backend");
+        Buffer buffer = device_->createBuffer(std::max(records.size_bytes(), sizeof(T)), name);
+        write(records, buffer);
+        return buffer;
+    }
+
+    template <class T> static void write(std::span<const T> records, const Buffer& buffer) {
+        if (!records.empty())
+            std::memcpy(buffer.view().data, records.data(), records.size_bytes());
+    }
+
+    [[nodiscard]] BuildStats stats(std::chrono::steady_clock::time_point begin) const {
+        const std::chrono::duration<double, std::milli> passed =
+            std::chrono::steady_clock::now() - begin;
+        std::size_t copied = 0;
+        if (own_buffers_)
+            for (const Argument& copy : own_buffers_->copies())
+                copied += copy.buffer.bytes;
+        return {.ms = passed.count(),
+                .triangles = tree_->triangleCount(),
+                .bytes = nodes_.bytes() + skips_.bytes() + triangles_.bytes() + instances_.bytes(),
+                .copied_bytes = copied};
+    }
+
+    [[nodiscard]] Arguments arguments() const {
+        static constexpr const char* kSceneArrays[] = {
+            "scene_positions", "scene_normals",   "scene_uvs",       "scene_triangles",
+            "scene_meshes",    "scene_instances", "scene_materials", "scene_textures",
+            "scene_texels",    "scene_srgb"};
+        Arguments result;
+        for (const char* name : kSceneArrays)
+            result.bind(name, {});
+        if (tree_->isMasked())
+            result.bind((own_buffers_ ? &*own_buffers_ : shared_)->arguments());
+        result.bind("bvh_nodes", nodes_.view());
+        result.bind("bvh_skips", skips_.view());
+        result.bind("bvh_triangles", triangles_.view());
+        result.bind("bvh_instances", instances_.view());
+        result.bind("bvh_unfinished", unfinished_.view());
+        return result;
+    }
+
+    void answer(const BvhKernels& kernels, std::span<const Ray> rays, std::span<std::byte> answers,
+                std::size_t answer_bytes, Coherence coherence) const {
+        if (rays.empty())
+            return;
+        query_.bind(rays, answers);
+        const std::size_t most = std::min(rays.size(), kMostRays);
+        if (states_.bytes() < most * sizeof(BvhState))
+            states_ = device_->createBuffer(most * sizeof(BvhState), "bvh_states");
+        Arguments bound = arguments();
+        bound.bind("bvh_states", states_.view());
+
+        // A GPU's subgroups are wide: rays that go anywhere would wait for each other.
+        const DeviceInfo& info = device_->info();
+        const bool together =
+            info.has_votes && (info.is_software || coherence == Coherence::kCoherent);
+        for (std::size_t first = 0; first < rays.size(); first += kMostRays) {
+            const auto count = static_cast<uint>(std::min(kMostRays, rays.size() - first));
+            const Window ray_window(query_.rays(), sizeof(Ray), first, count);
+            const Window answer_window(query_.answers(), answer_bytes, first, count);
+            bound.bind("rays", ray_window.view);
+            bound.bind(kernels.answers, answer_window.view);
+            BvhQueryParams params{.first_ray = ray_window.first,
+                                  .first_answer = answer_window.first,
+                                  .node_count = static_cast<uint>(tree_->nodes().size()),
+                                  .step_limit = params_.step_limit,
+                                  .is_resumed = 0,
+                                  .world_nodes = tree_->worldNodes(),
+                                  .extent = tree_->extent()};
+            uint& unfinished = unfinished_.as<uint>()[0];
+            do {
+                unfinished = 0;
+                const bool starts_together = together && params.is_resumed == 0;
+                CommandEncoder& encoder = device_->encoder();
+                encoder.dispatch(starts_together ? kernels.together : kernels.alone, bound,
+                                 std::as_bytes(std::span(&params, 1)), count);
+                encoder.finish();
+                params.is_resumed = 1;
+            } while (unfinished != 0);
+        }
+        query_.collect();
+    }
+
+    Device* device_;
+    BvhBuilder builder_;
+    BvhParams params_;
+    const Scene* scene_ = nullptr;
+    const SceneBuffers* shared_ = nullptr;
+    std::optional<BvhScene> tree_;
+    std::optional<SceneBuffers> own_buffers_;
+    Buffer nodes_, skips_, triangles_, instances_;
+    // One query at a time.
+    mutable QueryMemory query_;
+    mutable Buffer states_;
+    Buffer unfinished_;
+};
+
+} // namespace
+
+std::unique_ptr<TraceBackend> makeBvhTracer(Device& device, BvhBuilder builder,
+                                            const BvhParams& params) {
+    return std::make_unique<BvhBackend>(device, std::move(builder), params);
+}
+
+} // namespace hone
