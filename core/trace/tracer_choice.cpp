@@ -21,46 +21,62 @@ struct Candidate {
     std::string name;
     std::unique_ptr<TraceBackend> backend;
     Rank rank = Rank::kGood;
+    bool is_on_host = true;
     double rays_per_second = 0;
 };
 
-Rank rankOf(const TraceCaps& caps, const Devices& devices) {
-    if (caps.is_reference)
-        return Rank::kReference;
-    const bool is_software = devices.raster != nullptr && devices.raster->info().is_software &&
-                             caps.runs_on == devices.raster->info().name;
-    return is_software ? Rank::kSoftwareDevice : Rank::kGood;
-}
-
-/// Those that are no use, and why.
+/// Those that are no use, by reason.
 class LeftOut {
 public:
     void add(const std::string& name, const std::string& why) {
-        text_ += (text_.empty() ? "" : "; ") + name + ": " + why;
+        const auto found = std::ranges::find(reasons_, why, &Reason::why);
+        if (found != reasons_.end())
+            found->names += ", " + name;
+        else
+            reasons_.push_back({why, name});
     }
-    void add(const Candidate& candidate) {
-        add(candidate.name, candidate.rank == Rank::kReference
-                                ? "a reference, for tiny scenes"
-                                : "of a software device, which runs on the same cores");
+    /// "brute, null: references, for tiny scenes; vulkan.ray_query: no ray query"; "" if there are
+    /// none.
+    [[nodiscard]] std::string text() const {
+        std::string text;
+        for (const Reason& reason : reasons_)
+            text += (text.empty() ? "" : "; ") + reason.names + ": " + reason.why;
+        return text;
     }
-    [[nodiscard]] const std::string& text() const { return text_; }
 
 private:
-    std::string text_;
+    struct Reason {
+        std::string why, names;
+    };
+    std::vector<Reason> reasons_;
 };
+
+Candidate makeCandidate(const std::string& name, std::unique_ptr<TraceBackend> backend,
+                        const TraceCaps& caps, const Devices& devices) {
+    const bool is_software = devices.raster != nullptr && devices.raster->info().is_software &&
+                             caps.runs_on == devices.raster->info().name;
+    return {.name = name,
+            .backend = std::move(backend),
+            .rank = caps.is_reference ? Rank::kReference
+                    : is_software     ? Rank::kSoftwareDevice
+                                      : Rank::kGood,
+            .is_on_host = is_software || caps.runs_on == "host"};
+}
 
 std::vector<Candidate> findCandidates(const TraceBackendRegistry& registry, const Devices& devices,
                                       bool masked, LeftOut& left_out) {
     std::vector<Candidate> found;
     for (const std::string& name : registry.names()) {
         try {
-            Candidate candidate{.name = name, .backend = registry.create(name, devices)};
-            const TraceCaps caps = candidate.backend->caps();
-            candidate.rank = rankOf(caps, devices);
+            std::unique_ptr<TraceBackend> backend = registry.create(name, devices);
+            const TraceCaps caps = backend->caps();
+            const bool is_alias = caps.name != name && registry.contains(caps.name);
+            if (is_alias)
+                continue;
             if (masked && !caps.masked)
-                left_out.add(name, "does not honour alpha-masked materials");
+                left_out.add(name, "sees no alpha masks");
             else
-                found.push_back(std::move(candidate));
+                found.push_back(makeCandidate(name, std::move(backend), caps, devices));
         } catch (const std::runtime_error& problem) { // DeviceError, OutOfMemory, PluginError
             left_out.add(name, problem.what());
         }
@@ -68,15 +84,25 @@ std::vector<Candidate> findCandidates(const TraceBackendRegistry& registry, cons
     return found;
 }
 
-/// Keeps those of the best rank.
+/// Keeps those of the best rank, and of several that would share the cores the first.
 void keepBest(std::vector<Candidate>& candidates, LeftOut& left_out) {
     if (candidates.empty())
         return;
     const Rank best = std::ranges::min_element(candidates, {}, &Candidate::rank)->rank;
+    std::string on_host;
     std::erase_if(candidates, [&](const Candidate& candidate) {
-        if (candidate.rank != best)
-            left_out.add(candidate);
-        return candidate.rank != best;
+        if (candidate.rank != best) {
+            left_out.add(candidate.name, candidate.rank == Rank::kReference
+                                             ? "references, for tiny scenes"
+                                             : "of a software device, on the same cores");
+            return true;
+        }
+        if (!candidate.is_on_host || on_host.empty()) {
+            on_host = candidate.is_on_host ? candidate.name : on_host;
+            return false;
+        }
+        left_out.add(candidate.name, "on the same cores as " + on_host + ", which comes first");
+        return true;
     });
 }
 

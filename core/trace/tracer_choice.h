@@ -22,11 +22,13 @@ struct TracerChoice {
 /// What "auto" stands for: the fastest backend that can be made on these devices and trace such
 /// scenes.
 ///
-/// Left out without a trial are references, and tracers of a software Vulkan device: they would
-/// share the cores with a tracer of the host that is far faster. (Where nothing else is there, they
-/// are taken after all, the latter first.) If several are left, each is timed for about 100 ms
-/// (Calibration). Backends agree but for ties and rounding at edges; who needs the same bits on
-/// another machine names one. Throws DeviceError that says of each why it cannot.
+/// Only processors compete. Of the backends that share the host's cores the first that was
+/// registered is taken, and its rivals are never built: references and tracers of a software Vulkan
+/// device only where nothing else is there (the latter first). If backends on hardware devices are
+/// there, too, each is timed for about 100 ms (Calibration). Backends agree but for ties and
+/// rounding at edges; who needs the same bits on another machine names one.
+///
+/// Throws DeviceError that says of each why it cannot.
 [[nodiscard]] TracerChoice chooseTracer(const TraceBackendRegistry& registry,
                                         const Devices& devices, bool masked);
 
