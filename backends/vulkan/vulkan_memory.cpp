@@ -17,6 +17,9 @@ VkDeviceSize roundUp(VkDeviceSize value, VkDeviceSize multiple) {
     return (value + multiple - 1) / multiple * multiple;
 }
 
+/// Through a window of this size discrete GPUs without resizable BAR show their memory.
+constexpr VkDeviceSize kWindowBytes = VkDeviceSize{256} << 20;
+
 } // namespace
 
 std::optional<std::uint32_t> findType(const VkPhysicalDeviceMemoryProperties& memory,
@@ -27,24 +30,24 @@ std::optional<std::uint32_t> findType(const VkPhysicalDeviceMemoryProperties& me
     return std::nullopt;
 }
 
-namespace {
-
-/// Mapped and coherent always. Cached before device-local: the host reads results through the
-/// mapping, and uncached reads over a bus are about a hundred times slower than the device's reads
-/// of host memory.
 std::uint32_t bufferType(const VkPhysicalDeviceMemoryProperties& memory, std::uint32_t allowed) {
     constexpr VkMemoryPropertyFlags kMapped =
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    for (VkMemoryPropertyFlags extra :
-         {VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT |
-                                VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT},
-          VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT},
-          VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT}, VkMemoryPropertyFlags{0}})
-        if (const auto type = findType(memory, allowed, kMapped | extra))
+    constexpr VkMemoryPropertyFlags kCached = kMapped | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    constexpr VkMemoryPropertyFlags kLocal = kMapped | VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    if (const auto type = findType(memory, allowed, kCached | kLocal))
+        return *type;
+    const auto local = findType(memory, allowed, kLocal);
+    if (local && memory.memoryHeaps[memory.memoryTypes[*local].heapIndex].size > kWindowBytes)
+        return *local;
+    for (const VkMemoryPropertyFlags wanted : {kCached, kLocal, kMapped})
+        if (const auto type = findType(memory, allowed, wanted))
             return *type;
     // Vulkan promises every buffer a coherent, host-visible type.
     throw DeviceError("the device offers no host-visible, coherent memory for buffers");
 }
+
+namespace {
 
 /// Where the device reads fastest, mapped or not.
 std::uint32_t deviceType(const VkPhysicalDeviceMemoryProperties& memory, std::uint32_t allowed) {

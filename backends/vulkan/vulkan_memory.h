@@ -24,6 +24,16 @@ struct MemoryRange {
                                                     std::uint32_t allowed,
                                                     VkMemoryPropertyFlags wanted);
 
+/// The type for hone's buffers, which are mapped and coherent always. Throws DeviceError if none
+/// is.
+///
+/// Where one type is all that and device-local and cached (software, integrated GPUs), that. On a
+/// discrete GPU whose whole memory the host sees (resizable BAR) its own memory: kernels go through
+/// a buffer many times, the host reads results once, and uncached. Where the host sees but a window
+/// of it, cached memory of the host, which the GPU reads over the bus.
+[[nodiscard]] std::uint32_t bufferType(const VkPhysicalDeviceMemoryProperties& memory,
+                                       std::uint32_t allowed);
+
 /// Memory of buffers: blocks of 64 MiB, mapped for their whole life, first fit; what is larger than
 /// a quarter of a block gets an allocation of its own. Freed ranges are joined and used again.
 class VulkanMemory {
