@@ -19,7 +19,11 @@ struct EmbreeParams {
 /// list is answered as if it were alone. Coherent lists are traced in packets of 16, where a ray
 /// that meets a triangle's edge within rounding may be answered differently next to other rays: of
 /// closest hits on Sponza's camera rays none was, of shadow rays aimed exactly at edges 0.2 %.
-/// Throws DeviceError if the library cannot start.
+///
+/// Reads the scene's own triangles, and its positions where nothing is moved: of the scene nothing
+/// is copied. Instances that move leave the tree that was built for one of moved things, which is
+/// refitted: of Sponza's 332 k triangles an object of 10 k follows in a thousandth of a build, one
+/// of 69 k in a fiftieth. Throws DeviceError if the library cannot start.
 [[nodiscard]] std::unique_ptr<TraceBackend> makeEmbreeBackend();
 /// The same with other parameters.
 [[nodiscard]] std::unique_ptr<TraceBackend> makeEmbreeBackendWith(const EmbreeParams& params);

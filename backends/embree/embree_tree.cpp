@@ -20,9 +20,9 @@ bool isNearer(float t, Hit hit, const QueryContext::Nearest& nearest) {
     return hit.primitive < nearest.hit.primitive;
 }
 
-/// The still part's tree is built anew without what left it once that is a quarter of it: rays
+/// The still part's tree is built anew without what left it once that is an eighth of it: rays
 /// visit what is not there.
-constexpr std::size_t kStillShare = 4;
+constexpr std::size_t kStillShare = 8;
 
 void setTransform(RTCGeometry placed, const Instance& instance) {
     rtcSetGeometryTransform(placed, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &instance.to_world);
@@ -96,6 +96,8 @@ void EmbreeTree::buildStill() {
 }
 
 bool EmbreeTree::move(std::span<const uint> moved) {
+    if (moved.empty())
+        return true;
     for (const uint index : moved)
         if (isInstanced(index) && !isInvertible(source_->instances[index]))
             return false;

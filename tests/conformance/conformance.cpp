@@ -44,6 +44,11 @@ void TracerConformance::build(Scene scene) {
     tracer_->build(scene_);
 }
 
+void TracerConformance::move(uint instance, const mat4x3& place) {
+    moveInstance(scene_, instance, place);
+    tracer_->update({&instance, 1});
+}
+
 std::vector<Hit> TracerConformance::closestOf(std::span<const Ray> rays, const Mode& mode) const {
     std::vector<Hit> hits(rays.size(), Hit{12345, 67890}); // which no test expects
     tracer_->closest(rays, hits, mode.coherence, mode.options);

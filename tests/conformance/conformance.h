@@ -51,6 +51,9 @@ protected:
     void build(Scene scene);
     void build(const SceneBuilder& builder) { build(builder.finish()); }
 
+    /// Places an instance elsewhere and lets the tracer follow.
+    void move(uint instance, const mat4x3& place);
+
     [[nodiscard]] std::vector<Hit> closestOf(std::span<const Ray> rays, const Mode& mode) const;
     [[nodiscard]] std::vector<uint> occludedOf(std::span<const Ray> rays, const Mode& mode) const;
 
@@ -59,6 +62,11 @@ protected:
     [[nodiscard]] bool occluded(const Ray& ray) const;
     /// The answers in all modes, for rays that may have several right answers.
     [[nodiscard]] std::vector<Hit> closestInAllModes(const Ray& ray) const;
+
+    /// Holds the answers for the scene as it is now against the brute loop's. Two tracers may round
+    /// apart which of two hits is nearer that lie within 1e-5 of the distance; nothing else is
+    /// forgiven. (In random_test.cpp.)
+    void expectAgreementWithBrute(std::span<const Ray> rays) const;
 
     /// As many rays as `count`, or a sixteenth of them where the tracer is slow.
     [[nodiscard]] static std::size_t rayCount(std::size_t count) {

@@ -79,42 +79,69 @@ double distanceTo(const Scene& scene, const Ray& ray, Hit hit) {
     return glm::dot(a - dvec3(ray.origin), normal) / glm::dot(dvec3(ray.direction), normal);
 }
 
-// Two tracers may round apart which of two hits is nearer that lie within 1e-5 of the distance;
-// nothing else is forgiven.
+/// Rays through the middle of the scene, some of them short.
+std::vector<Ray> randomRays(uint seed, std::size_t count) {
+    Random random(seed);
+    std::vector<Ray> rays(count);
+    for (Ray& ray : rays) {
+        const vec3 origin = 3.0f * random.vector();
+        const float tmin = 0.5f * (1 + random.number());
+        const vec3 direction = 2.0f * random.vector() - origin;
+        ray = {origin, tmin, direction, random.number() > 0 ? 1e30f : 1.0f};
+    }
+    return rays;
+}
+
 TEST_P(TracerConformance, AgreesWithTheBruteLoopOnRandomScenes) {
     for (const uint seed : {1u, 2u}) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
         build(randomScene(seed));
-        Random random(seed + 100);
-        std::vector<Ray> rays(rayCount(20'000));
-        for (Ray& ray : rays) {
-            const vec3 origin = 3.0f * random.vector();
-            const float tmin = 0.5f * (1 + random.number());
-            const vec3 direction = 2.0f * random.vector() - origin;
-            ray = {origin, tmin, direction, random.number() > 0 ? 1e30f : 1.0f};
-        }
-        const auto brute = makeBruteBackend();
-        brute->build(scene_);
-        std::vector<Hit> expected(rays.size());
-        std::vector<uint> expected_occluded(rays.size());
-        brute->closest(rays, expected, Coherence::kIncoherent, {});
-        brute->occluded(rays, expected_occluded, Coherence::kIncoherent, {});
-        const auto misses = static_cast<std::size_t>(std::ranges::count(expected, kMiss));
-        EXPECT_GT(misses, rays.size() / 20);
-        EXPECT_LT(misses, rays.size() - rays.size() / 20);
+        expectAgreementWithBrute(randomRays(seed + 100, rayCount(20'000)));
+    }
+}
 
-        for (const Mode& mode : kModes) {
-            const std::vector<Hit> hits = closestOf(rays, mode);
-            EXPECT_EQ(occludedOf(rays, mode), expected_occluded);
-            for (std::size_t i = 0; i < rays.size(); ++i) {
-                if (hits[i] == expected[i])
-                    continue;
-                const double t = distanceTo(scene_, rays[i], expected[i]);
-                EXPECT_NEAR(distanceTo(scene_, rays[i], hits[i]), t, 1e-5 * t)
-                    << "ray " << i << " of seed " << seed;
-            }
+TEST_P(TracerConformance, AgreesWithTheBruteLoopWhileInstancesMove) {
+    build(randomScene(3));
+    Random random(203);
+    // One of them again and again, others once; at last so many that little stands still.
+    const std::vector<std::vector<uint>> moves = {{7}, {7}, {0, 7, 24}, {1, 2, 3, 7, 8, 15, 16}};
+    for (const std::vector<uint>& moved : moves) {
+        SCOPED_TRACE(std::to_string(moved.size()) + " move");
+        for (const uint index : moved) {
+            mat4x3 place = scene_.instances[index].to_world;
+            place[0] *= random.number() > 0 ? 1.0f : -1.0f;
+            place[1] += 0.3f * random.vector();
+            place[3] = 2.0f * random.vector();
+            moveInstance(scene_, index, place);
         }
+        tracer_->update(moved);
+        expectAgreementWithBrute(randomRays(300, rayCount(5'000)));
     }
 }
 
 } // namespace
+
+void TracerConformance::expectAgreementWithBrute(std::span<const Ray> rays) const {
+    const auto brute = makeBruteBackend();
+    brute->build(scene_);
+    std::vector<Hit> expected(rays.size());
+    std::vector<uint> expected_occluded(rays.size());
+    brute->closest(rays, expected, Coherence::kIncoherent, {});
+    brute->occluded(rays, expected_occluded, Coherence::kIncoherent, {});
+    const auto misses = static_cast<std::size_t>(std::ranges::count(expected, kMiss));
+    EXPECT_GT(misses, rays.size() / 20);
+    EXPECT_LT(misses, rays.size() - rays.size() / 20);
+
+    for (const Mode& mode : kModes) {
+        const std::vector<Hit> hits = closestOf(rays, mode);
+        EXPECT_EQ(occludedOf(rays, mode), expected_occluded);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (hits[i] == expected[i])
+                continue;
+            const double t = distanceTo(scene_, rays[i], expected[i]);
+            EXPECT_NEAR(distanceTo(scene_, rays[i], hits[i]), t, 1e-5 * t) << "ray " << i;
+        }
+    }
+}
+
 } // namespace hone::test
