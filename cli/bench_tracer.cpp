@@ -20,6 +20,7 @@ public:
         return inner_->build(scene, shared);
     }
     BuildStats update(std::span<const uint> moved) override { return inner_->update(moved); }
+    std::size_t copiedBytes() const override { return inner_->copiedBytes(); }
 
     void closest(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence,
                  const TraceOptions& options) const override {

@@ -161,6 +161,10 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
                            "stop refining after so many rays");
     render_app->add_option("--iterations", render_arguments.iterations,
                            "stop refining after so many batches");
+    render_app
+        ->add_option("--max-copies", render_arguments.max_copies,
+                     "exit 1 if more than so many things are copied between memories (0 = none)")
+        ->check(CLI::NonNegativeNumber);
     render_app->add_option("--reference", render_arguments.reference,
                            "compare the color output with this image");
     render_app->add_flag("--validate", render_arguments.validate,

@@ -75,8 +75,9 @@ struct RenderArguments : SessionArguments {
     double max_ms = 0;
     std::uint64_t max_rays = 0;
     std::uint64_t iterations = 0;
-    std::string reference; ///< an image to compare "color" with
-    bool validate = false; ///< Vulkan validation layer; messages fail the run
+    long long max_copies = -1; ///< between memories; more fail the run; negative = no limit
+    std::string reference;     ///< an image to compare "color" with
+    bool validate = false;     ///< Vulkan validation layer; messages fail the run
     bool quiet = false;
     bool json = false;
 };

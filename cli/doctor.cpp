@@ -41,7 +41,8 @@ int doctor(const DoctorArguments& arguments, const Console& console) {
         say("Vulkan device", device.usable,
             device.name + " (" + device.driver + ", Vulkan " + device.api_version + ", ray query " +
                 (device.ray_query ? "yes" : "no") + ", ray pipeline " +
-                (device.ray_pipeline ? "yes" : "no") + ")",
+                (device.ray_pipeline ? "yes" : "no") + ", imports host memory " +
+                (device.host_import ? "yes" : "no") + ")",
             device.missing);
     }
     if (devices.empty())

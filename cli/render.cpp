@@ -2,6 +2,7 @@
 //
 // hone render: runs a graph and writes its outputs.
 #include "hone/cli/commands.h"
+#include "hone/cli/copies.h"
 #include "hone/cli/json.h"
 #include "hone/cli/outputs.h"
 #include "hone/cli/progress.h"
@@ -58,6 +59,7 @@ Json report(const Stage& stage, const RenderArguments& arguments, double frame_m
         {"stop", has_looped                    ? curve->stop
                  : InterruptGuard::requested() ? "cancelled"
                                                : ""},
+        {"copies", copiesAsJson(executor.copies())},
         {"validation_messages", stage.session.validationMessages()},
         {"outputs", paths}};
 }
@@ -82,6 +84,12 @@ void summarise(const Json& report, const Console& console) {
             << report["backend"].get<std::string>() << " in "
             << report["iterations"].get<std::uint64_t>()
             << " iterations (stopped: " << report["stop"].get<std::string>() << ")";
+    std::size_t copied_bytes = 0;
+    for (const Json& copy : report["copies"])
+        copied_bytes += copy["bytes"].get<std::size_t>();
+    err << "\ncopies between memories: " << report["copies"].size();
+    if (copied_bytes > 0)
+        err << " (" << shortNumber(static_cast<double>(copied_bytes)) << "B; --json lists them)";
     err << "\n" << std::defaultfloat;
 }
 
@@ -112,6 +120,11 @@ int render(const RenderArguments& arguments, const Console& console) {
     const InterruptGuard interrupts;
     const std::unique_ptr<Stage> stage = makeStage(arguments, console);
     const auto begin = std::chrono::steady_clock::now();
+    if (arguments.max_copies >= 0) {
+        stage->executor->prepare();
+        if (!areCopiesAllowed(stage->executor->copies(), arguments.max_copies, console.err))
+            return kTargetNotMet;
+    }
     runWithProgress(*stage, arguments, console);
     const double frame_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
@@ -143,6 +156,9 @@ int render(const RenderArguments& arguments, const Console& console) {
         print(console.out, result);
     if (const int signal = InterruptGuard::requested())
         return signal;
+    // Lists that a tracer had to copy are known only now.
+    if (!areCopiesAllowed(stage->executor->copies(), arguments.max_copies, console.err))
+        return kTargetNotMet;
     return stage->session.validationMessages() == 0 ? kOk : kTargetNotMet;
 }
 

@@ -100,6 +100,8 @@ public:
             answer(kBvhOccluded, rays, std::as_writable_bytes(occluded), sizeof(uint), coherence);
     }
 
+    std::size_t copiedBytes() const override { return query_.copiedBytes(); }
+
 private:
     [[nodiscard]] bool isEmpty() const {
         HONE_ASSERT(tree_.has_value(), "build() comes before the first query");
@@ -128,8 +130,8 @@ private:
             std::chrono::steady_clock::now() - begin;
         std::size_t copied = 0;
         if (own_buffers_)
-            for (const Argument& copy : own_buffers_->copies())
-                copied += copy.buffer.bytes;
+            for (const MemoryCopy& copy : own_buffers_->copies())
+                copied += copy.bytes;
         return {.ms = passed.count(),
                 .triangles = tree_->triangleCount(),
                 .bytes = nodes_.bytes() + skips_.bytes() + triangles_.bytes() + instances_.bytes(),

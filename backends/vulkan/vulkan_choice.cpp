@@ -118,6 +118,7 @@ VulkanCandidate examine(VkPhysicalDevice device) {
     found.queue_family = queue_family.value_or(0);
     found.report.usable = missing.empty();
     found.host_import_alignment = hostImportAlignment(device);
+    found.report.host_import = found.host_import_alignment > 0;
 
     const RayTracing rays = findRayTracing(device);
     found.report.ray_query = rays.query;

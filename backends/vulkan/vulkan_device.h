@@ -36,6 +36,7 @@ struct VulkanDeviceReport {
     std::string missing;       ///< why not, "" if usable
     bool ray_query = false;    ///< tracers may ask from any kernel
     bool ray_pipeline = false; ///< tracers may run ray generation and hit shaders
+    bool host_import = false;  ///< uses memory of the host where it is (Device::importBuffer)
 };
 /// All devices in the loader's order, usable or not. Throws DeviceError if there is no driver.
 [[nodiscard]] std::vector<VulkanDeviceReport> listVulkanDevices();

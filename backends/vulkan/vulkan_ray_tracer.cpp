@@ -106,8 +106,8 @@ void VulkanRayTracer::makeTree(bool is_refitted) {
 BuildStats VulkanRayTracer::stats(double ms) const {
     std::size_t copied = tree_->copiedBytes();
     if (own_buffers_)
-        for (const Argument& array : own_buffers_->copies())
-            copied += array.buffer.bytes;
+        for (const MemoryCopy& array : own_buffers_->copies())
+            copied += array.bytes;
     return {
         .ms = ms, .triangles = tree_->triangles(), .bytes = tree_->bytes(), .copied_bytes = copied};
 }

@@ -35,8 +35,7 @@ public:
     void occluded(std::span<const Ray> rays, std::span<uint> occluded, Coherence coherence,
                   const TraceOptions& options) const override;
 
-    /// Bytes of queries that were copied since this was made (QueryMemory).
-    [[nodiscard]] std::size_t copiedBytes() const { return memory_.copiedBytes(); }
+    [[nodiscard]] std::size_t copiedBytes() const override { return memory_.copiedBytes(); }
 
 private:
     void makeTree(bool is_refitted);

@@ -66,6 +66,9 @@ public:
     /// GraphError.
     void setParameter(const std::string& path, const std::string& value);
 
+    /// Does before its time what the next run() would do at its first need: brings the scene to the
+    /// devices and builds the tracers that passes name. Throws what run() throws.
+    void prepare();
     /// Runs to the end of every loop, or to a limit. Throws DeviceError, SceneError, OutOfMemory. A
     /// steady-state run (nothing grew) does no heap allocation of its own.
     void run(const RunOptions& options = {});
@@ -81,6 +84,9 @@ public:
     [[nodiscard]] const Counters& counters() const; ///< of the last run
     [[nodiscard]] const CompiledGraph& graph() const;
     [[nodiscard]] std::size_t bytesAllocated() const;
+    /// What exists twice or was carried between memories so far. After prepare() all that can be
+    /// known before a run; lists of rays are known once they were asked.
+    [[nodiscard]] std::vector<MemoryCopy> copies() const;
     [[nodiscard]] Tracers& tracers();
 
 private:

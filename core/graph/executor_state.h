@@ -65,6 +65,7 @@ struct Executor::State {
 
     void run(const RunOptions& options);
     void prepareInputs();
+    void prepareTracers();
     [[nodiscard]] bool seesOther(NodeId id) const;
     void markSeen(NodeId id);
 

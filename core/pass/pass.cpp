@@ -155,11 +155,27 @@ TraceBackend& Tracers::get(std::string_view backend, const Value& scene_value) {
     if (only_moved)
         found->backend->update(movedInstances(found->instances, scene.instances));
     else
-        found->backend->build(scene, scene_value.scene_buffers);
+        found->copied_bytes = found->backend->build(scene, scene_value.scene_buffers).copied_bytes;
     found->version = scene.version;
     found->shape_version = scene.shape_version;
     found->instances.assign(scene.instances.begin(), scene.instances.end());
     return *found->backend;
+}
+
+std::vector<MemoryCopy> Tracers::copies() const {
+    std::vector<MemoryCopy> copies;
+    for (const Built& built : built_) {
+        if (built.copied_bytes > 0)
+            copies.push_back({"the scene in " + built.name, built.copied_bytes,
+                              built.name + " keeps arrays of the scene in a memory of its own",
+                              "another trace backend; hone bench tracers compares them"});
+        if (const std::size_t bytes = built.backend->copiedBytes(); bytes > 0)
+            copies.push_back({"rays and answers of " + built.name, bytes,
+                              built.name + " cannot use the memory that they lay in",
+                              "passes that keep their lists in buffers of PassContext::memory, or "
+                              "another trace backend"});
+    }
+    return copies;
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hone/core/device/devices.h"
+#include "hone/core/device/memory_copy.h"
 #include "hone/core/interrupt.h"
 #include "hone/core/pass/param.h"
 #include "hone/core/pass/value.h"
@@ -83,6 +84,8 @@ public:
     /// What a name stands for: itself, or what chooseTracer() picks for "auto". It picks once, and
     /// once more for scenes with masked materials.
     [[nodiscard]] Resolved resolve(std::string_view backend, const Scene& scene);
+    /// What exists twice or was carried between memories because of those that get() gave out.
+    [[nodiscard]] std::vector<MemoryCopy> copies() const;
 
 private:
     struct Built {
@@ -91,6 +94,7 @@ private:
         std::uint64_t version = 0;
         std::uint64_t shape_version = 0;
         std::vector<Instance> instances{}; ///< as they were placed then
+        std::size_t copied_bytes = 0;      ///< BuildStats::copied_bytes of the last build
     };
     [[nodiscard]] TracerChoice& choose(const Scene& scene);
 

@@ -25,7 +25,9 @@ SceneBuffers::SceneBuffers(Device& device, const Scene& scene) {
         }
         arguments_.push_back({name, buffer.view()});
         if (!is_imported && !elements.empty()) {
-            copies_.push_back(arguments_.back());
+            copies_.push_back({std::string(name), elements.size_bytes(),
+                               device.info().name + " cannot use memory of the host where it is",
+                               "a device that imports host memory; hone doctor says which do"});
             std::memcpy(buffer.view().data, elements.data(), elements.size_bytes());
         }
         buffers_.push_back(std::move(buffer));

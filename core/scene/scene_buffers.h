@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hone/core/device/device.h"
+#include "hone/core/device/memory_copy.h"
 #include "hone/core/scene/scene.h"
 
 #include <vector>
@@ -26,12 +27,12 @@ public:
     /// What the device took memory for: copies, and what stands for empty arrays.
     [[nodiscard]] std::size_t bytes() const;
     /// The arrays that exist twice, for the device could not import them.
-    [[nodiscard]] std::span<const Argument> copies() const { return copies_; }
+    [[nodiscard]] std::span<const MemoryCopy> copies() const { return copies_; }
 
 private:
     std::vector<Buffer> buffers_;
     std::vector<Argument> arguments_;
-    std::vector<Argument> copies_;
+    std::vector<MemoryCopy> copies_;
     std::size_t bytes_ = 0;
 };
 

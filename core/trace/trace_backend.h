@@ -91,6 +91,9 @@ public:
     /// occluded[i] = 1 or 0 for rays[i]; sizes are equal.
     virtual void occluded(std::span<const Ray> rays, std::span<uint> occluded, Coherence coherence,
                           const TraceOptions& options) const = 0;
+    /// Bytes of rays and answers that were copied since this was made, for they lay where it cannot
+    /// use them (QueryMemory); 0 where all memory will do.
+    [[nodiscard]] virtual std::size_t copiedBytes() const { return 0; }
 };
 
 /// The backends that this program offers, by name; filled by the application (backends never

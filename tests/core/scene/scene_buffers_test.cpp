@@ -68,10 +68,12 @@ TEST(SceneBuffers, CopyWhatTheDeviceCannotUseAndSayWhat) {
     EXPECT_NE(buffers.find("scene_positions").as<vec3>().data(), scene.positions.data());
     EXPECT_EQ(buffers.find("scene_positions").as<vec3>()[1], vec3(1, 0, 0));
     std::size_t bytes = 0;
-    for (const Argument& copy : buffers.copies())
-        bytes += copy.buffer.bytes;
+    for (const MemoryCopy& copy : buffers.copies())
+        bytes += copy.bytes;
     EXPECT_EQ(bytes, 3 * (12 + 12 + 8) + 12 + sizeof(Mesh) + 2 * sizeof(Instance) +
                          sizeof(Material) + 1024 + sizeof(Environment));
+    EXPECT_EQ(buffers.copies()[0].what, "scene_positions");
+    EXPECT_EQ(buffers.copies()[0].why, "recording cannot use memory of the host where it is");
 }
 
 TEST(SceneBuffers, FollowMovedInstances) {
