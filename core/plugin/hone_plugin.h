@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: Apache-2.0 */
+// SPDX-License-Identifier: Apache-2.0
 /*
  * The border between hone and its plug-ins: C99 and nothing else, so that a plug-in built by any
  * compiler works with a hone built by another. In C++, hone_plugin.hpp on top of it is shorter.
@@ -277,8 +277,10 @@ typedef struct hone_plugin {
 } hone_plugin;
 
 /* The compiler, for hone_plugin::build. */
-#if defined(__VERSION__)
-#define HONE_PLUGIN_BUILD __VERSION__
+#if defined(__clang__)
+#define HONE_PLUGIN_BUILD __VERSION__ /* "Clang 14.0.6" */
+#elif defined(__GNUC__)
+#define HONE_PLUGIN_BUILD "GCC " __VERSION__
 #else
 #define HONE_PLUGIN_BUILD "unknown compiler"
 #endif

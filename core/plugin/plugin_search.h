@@ -13,10 +13,10 @@ namespace hone {
 /// Where plug-ins come from, in the order in which they are loaded.
 struct PluginSearch {
     /// Named by the person: each must load.
-    std::vector<std::filesystem::path> files;
+    std::vector<std::filesystem::path> files{};
     /// Searched for *.so, by name; not below. What does not load is left out, and a problem says
     /// so. Absolute; never the working directory, and never one that anybody may write to.
-    std::vector<std::filesystem::path> folders;
+    std::vector<std::filesystem::path> folders{};
 };
 
 /// The folders of a variable like HONE_PLUGIN_PATH, which separates them by colons. Parts that are

@@ -48,8 +48,13 @@ INSTANTIATE_TEST_SUITE_P(All, RefusedPlugins, testing::ValuesIn(test::badPlugins
 TEST(PluginOption, EndsEveryCommandThatReadsItWith4) {
     const TemporaryFolder folder;
     const std::vector<std::vector<std::string>> commands = {
-        {"check", "prt"},   {"render", "prt", "-o", folder.path("out")}, {"passes"}, {"doctor"},
-        {"bench", "parts"}, {"demo", "-o", folder.path("demo")}};
+        {"check", "prt"},
+        {"render", "prt", "-o", folder.path("out")},
+        {"passes"},
+        {"doctor"},
+        {"bench", "parts"},
+        {"bench", "tracers"},
+        {"demo", "-o", folder.path("demo")}};
     for (std::vector<std::string> command : commands) {
         command.insert(command.end(), {"--plugin", folder.path("absent.so")});
         const CommandRun run = runHone(command);
@@ -89,9 +94,10 @@ TEST(PluginPathVariable, IsListedByDoctor) {
     std::filesystem::copy_file(pluginFile("declines"), folder.path("d.so"));
     const PluginPath path(folder.path());
     const CommandRun run = runHone({"doctor", "--json"});
+    const nlohmann::json report = run.json();
     std::vector<nlohmann::json> found, left_out;
     bool is_backend_there = false;
-    for (const nlohmann::json& check : run.json()["checks"]) {
+    for (const nlohmann::json& check : report["checks"]) {
         if (check["check"] == "plug-in")
             (check["ok"] ? found : left_out).push_back(check["detail"]);
         if (check["check"] == "trace backend" && check["detail"] == "plain_c 2.1 on host")

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: Apache-2.0 */
+// SPDX-License-Identifier: Apache-2.0
 /*
  * A plug-in in plain C99, which proves that the border needs nothing else: a tracer that asks the
  * host about every triangle. Instead of intersecting it answers what tests ask for: a ray from the
