@@ -198,11 +198,11 @@ typedef struct hone_host {
 #define HONE_QUERY_COHERENT 1u /* hint: neighbours in the list point alike */
 #define HONE_QUERY_EXACT 2u    /* answer each ray as if it were alone, at the price of speed */
 
-/* What a build made; zeroed by hone, each member may be left 0 = not known. */
+/* What a build made. A backend may leave it as hone filled it: 0 = not known. */
 typedef struct hone_build_stats {
     uint32_t struct_size;
     uint32_t reserved;
-    uint64_t triangles;    /* in the structure, after instancing */
+    uint64_t triangles;    /* in the structure, after instancing; filled with the scene's */
     uint64_t bytes;        /* of the structure */
     uint64_t copied_bytes; /* of the scene's arrays that exist once more because of it */
 } hone_build_stats;

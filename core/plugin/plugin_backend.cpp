@@ -135,9 +135,10 @@ public:
         auto access = std::make_unique<SceneAccess>(scene);
         auto seen = std::make_unique<hone_scene>(makeScene(scene, *access));
         is_built_ = false;
-        const BuildStats stats = timed("build", [&](hone_build_stats* made, hone_error* error) {
-            return table_.build(tracer_, seen.get(), made, error);
-        });
+        const BuildStats stats =
+            timed("build", scene, [&](hone_build_stats* made, hone_error* error) {
+                return table_.build(tracer_, seen.get(), made, error);
+            });
         access_ = std::move(access);
         seen_ = std::move(seen);
         is_built_ = true;
@@ -149,9 +150,10 @@ public:
         if (table_.update == nullptr)
             return build(*access_->scene, nullptr);
         is_built_ = false;
-        const BuildStats stats = timed("update", [&](hone_build_stats* made, hone_error* error) {
-            return table_.update(tracer_, seen_.get(), moved.data(), moved.size(), made, error);
-        });
+        const BuildStats stats =
+            timed("update", *access_->scene, [&](hone_build_stats* made, hone_error* error) {
+                return table_.update(tracer_, seen_.get(), moved.data(), moved.size(), made, error);
+            });
         is_built_ = true;
         return stats;
     }
@@ -225,9 +227,11 @@ private:
         throw PluginError(text);
     }
 
-    template <class Function> BuildStats timed(const std::string& name, Function&& function) {
+    template <class Function>
+    BuildStats timed(const std::string& name, const Scene& scene, Function&& function) {
         hone_build_stats made{};
         made.struct_size = sizeof made;
+        made.triangles = scene.instancedTriangles();
         const auto begin = std::chrono::steady_clock::now();
         call(name, [&](hone_error* error) { return function(&made, error); });
         const std::chrono::duration<double, std::milli> passed =

@@ -4,7 +4,9 @@
 #include "hone/backends/bvh/bvh_backend.h"
 #include "hone/backends/embree/embree_backend.h"
 #include "hone/backends/host/host_device.h"
+#include "hone/backends/host/parallel_for.h"
 #include "hone/backends/vulkan/vulkan_tracers.h"
+#include "hone/core/plugin/plugin.h"
 #include "hone/tests/conformance/conformance.h"
 #include "hone/tests/support/vulkan_fixture.h"
 
@@ -55,6 +57,12 @@ int main(int argc, char** argv) {
                          },
                      .is_slow = true,
                      .memory = [] { return &sharedVulkanDevice(); }});
+    // The example of a plug-in.
+    test::addTracer({.name = "custom", .make = [] {
+                         TraceBackendRegistry registry;
+                         Plugin(HONE_CUSTOM_BACKEND, hostParallelFor).addTo(registry);
+                         return registry.create("custom", {});
+                     }});
     testing::InitGoogleTest(&argc, argv);
     return RUN_ALL_TESTS();
 }
