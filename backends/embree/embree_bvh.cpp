@@ -40,29 +40,33 @@ void store(const Bounds& bounds, RTCBounds& target) {
     target.upper_z = bounds.high.z;
 }
 
+void grow(Bounds& bounds, vec3 low, vec3 high) {
+    bounds.low = glm::min(bounds.low, low);
+    bounds.high = glm::max(bounds.high, high);
+}
+
 /// The two parts of `box` that a plane leaves of the triangle in it. Rounded outwards: each point
-/// of the triangle inside the box is in one of them.
+/// of the triangle inside the box is in one of them. Builders ask this for every plane that they
+/// consider: it is half of what a tree costs.
 std::pair<Bounds, Bounds> cut(const std::array<vec3, 3>& triangle, const Bounds& box, int axis,
                               float position) {
     Bounds lower, upper;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const vec3& from = triangle[i];
-        const vec3& to = triangle[(i + 1) % 3];
-        if (from[axis] <= position)
-            lower.add(from);
-        if (from[axis] >= position)
-            upper.add(from);
-        if ((from[axis] < position && position < to[axis]) ||
-            (to[axis] < position && position < from[axis])) {
-            const glm::dvec3 begin(from);
-            const double s = (double{position} - begin[axis]) / (double{to[axis]} - begin[axis]);
-            const vec3 point(begin + s * (glm::dvec3(to) - begin));
-            const vec3 rounding = glm::abs(point) * (1.0f / 4194304.0f) + vec3(1e-37f);
-            for (Bounds* part : {&lower, &upper}) {
-                part->add(point - rounding);
-                part->add(point + rounding);
-            }
+    vec3 from = triangle[2];
+    for (const vec3& to : triangle) {
+        const float begin = from[axis];
+        const float end = to[axis];
+        if (end <= position)
+            grow(lower, to, to);
+        if (end >= position)
+            grow(upper, to, to);
+        if ((begin < position && position < end) || (end < position && position < begin)) {
+            // Four units in the last place are more than these operations err.
+            const vec3 point = from + (position - begin) / (end - begin) * (to - from);
+            const vec3 error = (glm::abs(from) + glm::abs(to)) * (1.0f / 4194304.0f) + vec3(1e-37f);
+            grow(lower, point - error, point + error);
+            grow(upper, point - error, point + error);
         }
+        from = to;
     }
     for (Bounds* part : {&lower, &upper}) {
         part->low = glm::max(part->low, box.low);
