@@ -26,9 +26,9 @@ struct BvhNode {
 HONE_RECORD_CONST uint kBvhLeaf = 0x80000000u;      ///< in info, plus the number of triangles
 HONE_RECORD_CONST uint kBvhInstanced = 0xffffffffu; ///< info of a leaf that holds an instance
 
-// In place of a node: what comes after the last one. The world's tree ends with kNone.
-HONE_RECORD_CONST uint kBvhLeave = 0xfffffffdu; ///< the end of an instanced mesh's tree
-HONE_RECORD_CONST uint kBvhNever = 0xfffffffeu; ///< never reached
+// In place of a node: what comes after the last one of an instanced mesh's tree. The world's ends
+// with kNone.
+HONE_RECORD_CONST uint kBvhLeave = 0xfffffffeu;
 
 HONE_RECORD_CONST uint kBvhTwoSided = 1u;
 HONE_RECORD_CONST uint kBvhFlipped = 2u; ///< its front turns clockwise

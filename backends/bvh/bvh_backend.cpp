@@ -82,22 +82,22 @@ public:
         return stats(begin);
     }
 
-    void closest(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence,
+    void closest(std::span<const Ray> rays, std::span<Hit> hits, Coherence,
                  const TraceOptions&) const override {
         HONE_ASSERT(rays.size() == hits.size(), "one hit a ray");
         if (isEmpty())
             std::ranges::fill(hits, Hit{kNone, kNone});
         else
-            answer(kBvhClosest, rays, std::as_writable_bytes(hits), sizeof(Hit), coherence);
+            answer(kBvhClosest, "hits", rays, std::as_writable_bytes(hits), sizeof(Hit));
     }
 
-    void occluded(std::span<const Ray> rays, std::span<uint> occluded, Coherence coherence,
+    void occluded(std::span<const Ray> rays, std::span<uint> occluded, Coherence,
                   const TraceOptions&) const override {
         HONE_ASSERT(rays.size() == occluded.size(), "one answer a ray");
         if (isEmpty())
             std::ranges::fill(occluded, 0u);
         else
-            answer(kBvhOccluded, rays, std::as_writable_bytes(occluded), sizeof(uint), coherence);
+            answer(kBvhOccluded, "occluded", rays, std::as_writable_bytes(occluded), sizeof(uint));
     }
 
     std::size_t copiedBytes() const override { return query_.copiedBytes(); }
@@ -156,8 +156,9 @@ private:
         return result;
     }
 
-    void answer(const BvhKernels& kernels, std::span<const Ray> rays, std::span<std::byte> answers,
-                std::size_t answer_bytes, Coherence coherence) const {
+    /// Runs `kernel`, whose answers go to `port`.
+    void answer(const Kernel& kernel, const char* port, std::span<const Ray> rays,
+                std::span<std::byte> answers, std::size_t answer_bytes) const {
         if (rays.empty())
             return;
         query_.bind(rays, answers);
@@ -167,30 +168,23 @@ private:
         Arguments bound = arguments();
         bound.bind("bvh_states", states_.view());
 
-        // A GPU's subgroups are wide: rays that go anywhere would wait for each other.
-        const DeviceInfo& info = device_->info();
-        const bool together =
-            info.has_votes && (info.is_software || coherence == Coherence::kCoherent);
         for (std::size_t first = 0; first < rays.size(); first += kMostRays) {
             const auto count = static_cast<uint>(std::min(kMostRays, rays.size() - first));
             const Window ray_window(query_.rays(), sizeof(Ray), first, count);
             const Window answer_window(query_.answers(), answer_bytes, first, count);
             bound.bind("rays", ray_window.view);
-            bound.bind(kernels.answers, answer_window.view);
+            bound.bind(port, answer_window.view);
             BvhQueryParams params{.first_ray = ray_window.first,
                                   .first_answer = answer_window.first,
                                   .node_count = static_cast<uint>(tree_->nodes().size()),
                                   .step_limit = params_.step_limit,
                                   .is_resumed = 0,
-                                  .world_nodes = tree_->worldNodes(),
                                   .extent = tree_->extent()};
             uint& unfinished = unfinished_.as<uint>()[0];
             do {
                 unfinished = 0;
-                const bool starts_together = together && params.is_resumed == 0;
                 CommandEncoder& encoder = device_->encoder();
-                encoder.dispatch(starts_together ? kernels.together : kernels.alone, bound,
-                                 std::as_bytes(std::span(&params, 1)), count);
+                encoder.dispatch(kernel, bound, std::as_bytes(std::span(&params, 1)), count);
                 encoder.finish();
                 params.is_resumed = 1;
             } while (unfinished != 0);

@@ -14,9 +14,9 @@ struct BvhParams {
     std::string name = "bvh"; ///< what caps() say
     /// Triangles that copies of meshes may add to the world's tree (instancing.h).
     std::size_t flatten_triangles = kFlattenTriangles;
-    /// Boxes and triangles that one dispatch tests for a ray or a subgroup's rays; what is not done
-    /// then is dispatched again. Mesa 22.3.6 cuts an invocation's loops short after 65535 turns in
-    /// total, others end what runs for seconds.
+    /// Boxes and triangles that one dispatch tests for a ray; what is not done then is dispatched
+    /// again. Drivers end what runs for seconds, and Mesa 22.3.6 was seen to cut loops short after
+    /// 65535 turns (other kernels' loops; not this one's, which are nested).
     uint step_limit = 16'384;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The nearest hit of each ray, a subgroup together where there are votes.
+// The nearest hit of each ray.
 #include "hone/backends/bvh/bvh.glsl.h"
 
 #include "hone/core/scene/texture.glsl.h"

@@ -5,9 +5,7 @@
 #include "hone/core/device/kernel.glsl.h"
 
 #include "hone_spirv/bvh_closest.h"
-#include "hone_spirv/bvh_closest_alone.h"
 #include "hone_spirv/bvh_occluded.h"
-#include "hone_spirv/bvh_occluded_alone.h"
 
 namespace hone {
 namespace {
@@ -27,16 +25,7 @@ static_assert(sizeof(BvhQueryParams) == sizeof(BvhClosest::Params) &&
 
 } // namespace
 
-// On the host an invocation is alone anyway: both kernels have one native build.
-const BvhKernels kBvhClosest{
-    .together = makeKernel<BvhClosest>("bvh_closest", spirv::bvh_closest),
-    .alone = makeKernel<BvhClosest>("bvh_closest_alone", spirv::bvh_closest_alone),
-    .answers = "hits",
-};
-const BvhKernels kBvhOccluded{
-    .together = makeKernel<BvhOccluded>("bvh_occluded", spirv::bvh_occluded),
-    .alone = makeKernel<BvhOccluded>("bvh_occluded_alone", spirv::bvh_occluded_alone),
-    .answers = "occluded",
-};
+const Kernel kBvhClosest = makeKernel<BvhClosest>("bvh_closest", spirv::bvh_closest);
+const Kernel kBvhOccluded = makeKernel<BvhOccluded>("bvh_occluded", spirv::bvh_occluded);
 
 } // namespace hone

@@ -12,18 +12,10 @@ struct BvhQueryParams {
     std::uint32_t node_count;
     std::uint32_t step_limit;
     std::uint32_t is_resumed;
-    std::uint32_t world_nodes;
     float extent;
 };
 
-/// One kind of query: `together` for devices with votes, `alone` for others and for what goes on.
-struct BvhKernels {
-    Kernel together;
-    Kernel alone;
-    const char* answers; ///< the port's name
-};
-
-extern const BvhKernels kBvhClosest;
-extern const BvhKernels kBvhOccluded;
+extern const Kernel kBvhClosest;  ///< answers "hits"
+extern const Kernel kBvhOccluded; ///< answers "occluded"
 
 } // namespace hone

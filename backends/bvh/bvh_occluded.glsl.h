@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether anything is in the way of each ray, a subgroup together where there are votes.
+// Whether anything is in the way of each ray.
 #include "hone/backends/bvh/bvh.glsl.h"
 
 #include "hone/core/scene/texture.glsl.h"

@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The traversal of a BVH (bvh.glsl.h) without a stack, for rays together or alone. Kernel source:
-// included flat by the kernels beside it, after surface.glsl.h.
-//
-// Each ray visits the nodes that its own box tests and its own octant lead to, in that order, and
-// nothing else: the same nodes whether it is traced alone, beside others, or over several
-// dispatches. Together, the invocations of a subgroup stand at the same node at
-// any time: one that misses a box sleeps until the others come to the node where it goes on. Rays
-// of different octants take turns.
+// The traversal of a BVH (bvh.glsl.h) without a stack. Kernel source: included flat by the kernels
+// beside it, after surface.glsl.h.
 //
 // Loops are nested by how often they turn, because software devices run through every `if`: boxes
-// and triangles inside, what happens rarely (holes of masks, instances) outside.
+// and triangles inside, what happens rarely (holes of masks, instances) outside. Keeping a
+// subgroup's rays at one node, so that they share loads, was tried: on Mesa 25 it costs 5 to 30 %
+// where it was meant to gain, and on Mesa 22 it gains 10 % for primary rays alone.
 
 struct Params {
     uint first_ray; ///< where the list begins in the bound buffers
     uint first_answer;
     uint node_count;
-    uint step_limit;  ///< boxes and triangles that a dispatch tests at most for a ray, roughly
-    uint is_resumed;  ///< 1: go on from bvh_states
-    uint world_nodes; ///< nodes of the world's tree
-    float extent;     ///< the greatest coordinate in the world's tree, without sign
+    uint step_limit; ///< boxes and triangles that a dispatch tests at most for a ray, roughly
+    uint is_resumed; ///< 1: go on from bvh_states
+    float extent;    ///< the greatest coordinate in the world's tree, without sign
 };
 HONE_PARAMS(Params)
 HONE_READ(Ray, rays)
@@ -29,18 +24,6 @@ HONE_READ(BvhTriangle, bvh_triangles)
 HONE_READ(BvhInstance, bvh_instances)
 HONE_WRITE(BvhState, bvh_states)
 HONE_WRITE(uint, bvh_unfinished) // one word: not 0 if a ray is
-
-#if defined(HONE_BVH_ALONE) || defined(__cplusplus)
-HONE_CONST bool kTogether = false;
-bool anyOf(bool condition) {
-    return condition;
-}
-#else
-HONE_CONST bool kTogether = true;
-bool anyOf(bool condition) {
-    return HONE_ANY(condition);
-}
-#endif
 
 /// A ray in the space of the tree that is traversed.
 struct Lane {
@@ -139,18 +122,6 @@ uint octantInside(BvhInstance placed, uint octant) {
     return octantOf(placed.to_object * vec4(diagonal, 0.0f));
 }
 
-/// The octant of one of the rays that are to do: the same for all invocations of a subgroup.
-uint nextOctant(bool is_to_do, uint octant) {
-    uint result = 0u;
-    bool fits = is_to_do;
-    for (uint axis = 1u; axis < 8u; axis = 2u * axis) {
-        uint bit = anyOf(fits && (octant & axis) != 0u) ? axis : 0u;
-        result = result | bit;
-        fits = fits && (octant & axis) == bit;
-    }
-    return result;
-}
-
 /// Finds the nearest hit of ray `index` (or, if `is_any_enough`, any) that comes before `best`,
 /// from where bvh_states says if resumed. Returns whether there is one; `best` is then replaced.
 bool traverse(uint index, bool is_any_enough, HONE_INOUT(Hit) best) {
@@ -165,43 +136,28 @@ bool traverse(uint index, bool is_any_enough, HONE_INOUT(Hit) best) {
     vec3 direction = ray.direction * uintBitsToFloat((254u - exponent) << 23u);
     float tmin = max(ray.tmin, 0.0f) * unit;
     float best_t = ray.tmax * unit;
-    uint own_octant = octantOf(direction);
+    uint octant = octantOf(direction);
 
-    // Where all stand.
-    uint octant = 0u;
-    uint node = kNone;     // the next to visit
+    Lane lane = makeLane(ray.origin, direction, params.extent);
+    uint order = octant;                    // in the space of the tree
+    uint skips = order * params.node_count; // where its links begin
+    uint node = canHit(ray) ? 0u : kNone;   // the next to visit
     uint inside = kNone;   // the leaf whose instance is traversed; kNone: the world is
     uint leave_to = kNone; // where the world's tree goes on after the instance
     uint instance = kNone; // that triangles belong to; kNone: they say
-    uint order = 0u;       // octant, in the space of the tree
-    uint skips = 0u;       // where its links begin
     uint cursor = 0u;      // the next triangle of a leaf, up to
     uint last = 0u;
     uint steps = 0u;
-
-    // Where this one stands.
-    bool is_to_do = canHit(ray);
-    bool is_mine = false; // rays of its octant are under way
-    bool is_awake = false;
-    uint until = kBvhNever; // the node where it wakes
-    bool meets = false;     // the leaf's box
     bool is_found = false;
     bool is_pending = false; // a hit that may be a hole
     float pending_t = 0.0f;
     Hit pending = best;
-    Lane lane = makeLane(ray.origin, direction, params.extent);
 
-    if (!kTogether && params.is_resumed != 0u && is_to_do) {
+    if (params.is_resumed != 0u && node != kNone) {
         BvhState state = bvh_states[index];
-        is_to_do = state.node != kNone;
-        is_mine = is_to_do;
-        is_awake = is_to_do;
-        octant = own_octant;
-        order = own_octant;
-        skips = order * params.node_count;
         node = state.node;
         best_t = state.t;
-        if (state.instance != kNone) {
+        if (node != kNone && state.instance != kNone) {
             inside = state.instance;
             leave_to = bvh_skips[skips + inside];
             BvhInstance placed = bvh_instances[bvh_nodes[inside].link];
@@ -212,42 +168,17 @@ bool traverse(uint index, bool is_any_enough, HONE_INOUT(Hit) best) {
         }
     }
 
-    while (true) {
-        // Where the world's tree ends, go on with the next octant.
-        if (node == kNone && cursor == last) {
-            is_to_do = is_to_do && !is_mine;
-            if (!anyOf(is_to_do))
-                break;
-            octant = nextOctant(is_to_do, own_octant);
-            order = octant;
-            skips = order * params.node_count;
-            is_mine = is_to_do && own_octant == octant;
-            is_awake = is_mine;
-            until = kBvhNever;
-            node = 0u;
-            inside = kNone;
-            instance = kNone;
-            lane = makeLane(ray.origin, direction, params.extent);
-        }
-
+    while (node != kNone || cursor != last) {
         // From leaf to leaf, until something rare happens.
         uint entered = kNone; // the leaf of an instance
         bool is_going = true;
         while (is_going) {
-            // Find the next leaf whose box a ray meets.
+            // Find the next leaf whose box the ray meets.
             while (node < kBvhLeave && cursor == last && entered == kNone &&
                    steps < params.step_limit) {
                 BvhNode visited = bvh_nodes[node];
                 uint skip = bvh_skips[skips + node];
-                if (kTogether) {
-                    is_awake = is_awake || until == node;
-                    meets = is_awake && meetsBox(lane, visited, tmin, best_t);
-                    until = is_awake && !meets ? skip : until;
-                    is_awake = meets;
-                } else {
-                    meets = meetsBox(lane, visited, tmin, best_t);
-                }
-                bool is_met = anyOf(meets);
+                bool is_met = meetsBox(lane, visited, tmin, best_t);
                 bool is_inner = visited.info < kBvhLeaf;
                 bool is_left_nearer = ((order >> (visited.info & 3u)) & 1u) == 0u;
                 bool is_reached = is_met && !is_inner;
@@ -260,12 +191,12 @@ bool traverse(uint index, bool is_any_enough, HONE_INOUT(Hit) best) {
             }
 
             // Test its triangles.
-            while (cursor != last && !anyOf(is_pending)) {
+            while (cursor != last && !is_pending) {
                 BvhTriangle triangle = bvh_triangles[cursor];
                 cursor += 1u;
                 float t;
                 float slope;
-                bool is_hit = crossing(lane, triangle, t, slope) && meets && t >= tmin;
+                bool is_hit = crossing(lane, triangle, t, slope) && t >= tmin;
                 Hit hit;
                 hit.instance = instance == kNone ? triangle.instance : instance;
                 hit.primitive = triangle.primitive;
@@ -288,33 +219,23 @@ bool traverse(uint index, bool is_any_enough, HONE_INOUT(Hit) best) {
                     is_found = true;
                     best_t = t;
                     best = hit;
-                    is_to_do = is_to_do && !is_any_enough;
-                    meets = meets && !is_any_enough;
-                    is_awake = is_awake && !is_any_enough;
-                    until = is_any_enough ? kBvhNever : until;
+                    cursor = is_any_enough ? last : cursor;
+                    node = is_any_enough ? kNone : node;
                 }
             }
             is_going = cursor == last && node < kBvhLeave && entered == kNone &&
-                       steps < params.step_limit && !anyOf(is_pending);
-            if (is_any_enough && !anyOf(is_mine && is_to_do)) {
-                is_going = false;
-                node = kNone;
-            }
+                       steps < params.step_limit && !is_pending;
         }
 
         // A hit of a masked triangle counts where it is solid.
-        if (anyOf(is_pending)) {
-            if (is_pending && isSolid(ray, pending)) {
-                is_found = true;
-                best_t = pending_t;
-                best = pending;
-                is_to_do = is_to_do && !is_any_enough;
-                meets = meets && !is_any_enough;
-                is_awake = is_awake && !is_any_enough;
-                until = is_any_enough ? kBvhNever : until;
-            }
-            is_pending = false;
+        if (is_pending && isSolid(ray, pending)) {
+            is_found = true;
+            best_t = pending_t;
+            best = pending;
+            cursor = is_any_enough ? last : cursor;
+            node = is_any_enough ? kNone : node;
         }
+        is_pending = false;
 
         if (entered != kNone) {
             // Into the tree of an instanced mesh.
@@ -328,7 +249,6 @@ bool traverse(uint index, bool is_any_enough, HONE_INOUT(Hit) best) {
             node = placed.root;
         } else if (node == kBvhLeave && cursor == last) {
             // Back into the world's.
-            is_awake = is_awake || until == kBvhLeave;
             node = leave_to;
             inside = kNone;
             instance = kNone;
@@ -340,22 +260,13 @@ bool traverse(uint index, bool is_any_enough, HONE_INOUT(Hit) best) {
             break;
     }
 
-    // Where this ray goes on.
+    // Where it goes on.
     BvhState state;
-    state.node = 0u;
-    state.instance = kNone;
+    state.node = node;
+    state.instance = inside;
     state.t = best_t;
-    if (is_mine) {
-        state.node = is_awake ? node : until;
-        if (inside != kNone && state.node >= params.world_nodes && state.node < kBvhLeave)
-            state.instance = inside;
-        if (state.node == kBvhLeave)
-            state.node = leave_to;
-    }
-    if (!is_to_do)
-        state.node = kNone;
     bvh_states[index] = state;
-    if (state.node != kNone)
+    if (node != kNone)
         bvh_unfinished[0] = 1u; // whoever writes it writes the same
     return is_found;
 }

@@ -84,8 +84,6 @@ VulkanCandidate examine(VkPhysicalDevice device) {
                                                         : name + " " + version;
     found.max_buffer_bytes = sizes.maxBufferSize;
     found.max_allocation_bytes = v11.maxMemoryAllocationSize;
-    found.has_votes = (v11.subgroupSupportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
-                      (v11.subgroupSupportedOperations & VK_SUBGROUP_FEATURE_VOTE_BIT) != 0;
 
     VulkanFeatures features;
     vkGetPhysicalDeviceFeatures2(device, &features.core);

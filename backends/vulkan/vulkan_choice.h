@@ -19,7 +19,6 @@ struct VulkanCandidate {
     VkDeviceSize max_allocation_bytes = 0;
     VkDeviceSize host_import_alignment = 0; ///< hostImportAlignment()
     bool multi_draw = false;                ///< one indirect call may hold several draws
-    bool has_votes = false;                 ///< subgroupAny in compute shaders
 };
 
 /// All physical devices in the loader's order, with what each lacks.

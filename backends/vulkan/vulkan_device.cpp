@@ -20,7 +20,6 @@ public:
         info_.name = chosen.report.name;
         info_.driver = chosen.report.driver;
         info_.can_raster = true;
-        info_.has_votes = chosen.has_votes;
         info_.max_binding_bytes = chosen.properties.limits.maxStorageBufferRange;
         info_.is_software = chosen.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     }

@@ -19,7 +19,6 @@ struct DeviceInfo {
     std::string driver;      ///< "Mesa 22.3.6", "" for the host
     bool can_raster = false; ///< beginRaster and drawIndexed work
     bool is_software = true; ///< runs on the CPU: the host build of a kernel is then the faster one
-    bool has_votes = false;  ///< kernels may ask HONE_ANY
     std::size_t max_binding_bytes = SIZE_MAX; ///< what a kernel can read of one buffer
 };
 

@@ -18,10 +18,8 @@
 // The subset: write 1.0f, never 1.0; vec3(v) to shorten a vector, no swizzles of more than one
 // component; no array constructors; HONE_OUT / HONE_INOUT for parameters; HONE_CONST for constants;
 // a variable has its own statement; HONE_PRECISE before one whose sums and products must not be
-// fused, where the result's bits matter. HONE_ANY(c) is true if c is for any of the invocations that
-// run in step with this one (a subgroup; on the host each runs alone): for devices that say
-// has_votes, to go the same way together, never to decide what is written. Results are the same bits at any thread count because an
-// invocation may write only its own elements.
+// fused, because the result's sign or last bit decides something. Results are the same bits at any
+// thread count because an invocation may write only its own elements.
 #ifndef HONE_KERNEL_GLSL_H
 #define HONE_KERNEL_GLSL_H
 
@@ -38,7 +36,6 @@
 #define HONE_INOUT(type) type&
 #define HONE_CONST static constexpr
 #define HONE_PRECISE
-#define HONE_ANY(condition) (condition)
 
 #else
 
@@ -57,7 +54,6 @@
 #define HONE_INOUT(type) inout type
 #define HONE_CONST const
 #define HONE_PRECISE precise
-#define HONE_ANY(condition) subgroupAny(condition)
 
 #endif
 #endif
