@@ -7,6 +7,7 @@
 #include "hone/backends/embree/embree_bvh.h"
 #include "hone/backends/vulkan/vulkan_tracers.h"
 #include "hone/backends/vulkan_tracer.h"
+#include "hone/core/trace/null_backend.h"
 
 namespace hone {
 
@@ -31,6 +32,8 @@ void registerTraceBackends(TraceBackendRegistry& registry) {
         [](const Devices& devices) { return makeBvhTracer(*devices.host, buildEmbreeBvh); });
     registry.add("brute", "every ray against every triangle: the reference, for tiny scenes",
                  [](const Devices&) { return makeBruteBackend(); });
+    registry.add("null", "sees nothing: what a graph costs without its rays",
+                 [](const Devices&) { return makeNullBackend(); });
 }
 
 } // namespace hone

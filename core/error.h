@@ -46,6 +46,12 @@ struct InputError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// A check (check_backend.h) found that a trace backend breaks a promise, or that two disagree
+/// where rounding does not explain it. Names the ray and the answers. Exit code 1.
+struct CheckFailed : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 namespace detail {
 [[noreturn]] void assertionFailed(const char* condition, const char* file, int line,
                                   const std::string& values);

@@ -2,6 +2,7 @@
 #include "hone/core/graph/parameters.h"
 
 #include "hone/core/graph/reporter.h"
+#include "hone/core/trace/backend_name.h"
 
 #include <algorithm>
 #include <charconv>
@@ -98,12 +99,14 @@ std::variant<ParamValue, ParamProblem> readParam(const ParamDecl& decl, const Pa
         if (choice == nullptr)
             return wrong_type();
         const std::vector<std::string> choices = choicesOf(decl, catalog);
-        if (std::ranges::find(choices, *choice) != choices.end())
+        const bool is_backend = decl.from_trace_backends && catalog.trace_backends != nullptr &&
+                                catalog.trace_backends->contains(*choice);
+        if (is_backend || std::ranges::find(choices, *choice) != choices.end())
             return ParamValue(*choice);
         if (decl.from_trace_backends)
             return ParamProblem{"E0510",
                                 whose + ": this program has no trace backend \"" + *choice + "\"",
-                                suggest(*choice, choices, "it has")};
+                                suggest(*choice, similarNames(*choice, choices), "it has")};
         return ParamProblem{"E0504", whose + " has no choice \"" + *choice + "\"",
                             suggest(*choice, choices, "choose one of")};
     }

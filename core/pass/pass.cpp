@@ -132,7 +132,9 @@ std::unique_ptr<TraceBackend> Tracers::make(std::string_view backend, const Scen
     std::unique_ptr<TraceBackend> made;
     if (backend == "auto")
         made = std::move(choose(scene).backend);
-    if (made == nullptr)
+    if (made != nullptr)
+        made = registry_->wrap(std::move(made));
+    else
         made = registry_->create(name, devices_);
     requireMasks(*made, name, scene);
     return made;

@@ -2,6 +2,8 @@
 #include "hone/core/trace/trace_backend.h"
 
 #include "hone/core/error.h"
+#include "hone/core/trace/backend_name.h"
+#include "hone/core/trace/check_backend.h"
 
 #include <algorithm>
 
@@ -25,11 +27,30 @@ const std::string& TraceBackendRegistry::preferred() const {
 }
 
 bool TraceBackendRegistry::contains(std::string_view name) const {
+    if (const std::optional<CheckName> check = parseCheckName(name)) {
+        const auto is_known = [&](std::string_view inner) {
+            return inner.empty() || (inner == "auto" && !entries_.empty()) || contains(inner);
+        };
+        return is_known(check->first) && is_known(check->second);
+    }
     return std::ranges::any_of(entries_, [&](const Entry& entry) { return entry.name == name; });
 }
 
-std::unique_ptr<TraceBackend> TraceBackendRegistry::create(std::string_view name,
-                                                           const Devices& devices) const {
+std::unique_ptr<TraceBackend>
+TraceBackendRegistry::wrap(std::unique_ptr<TraceBackend> backend) const {
+    return wrapper_ ? wrapper_(std::move(backend)) : std::move(backend);
+}
+
+std::unique_ptr<TraceBackend> TraceBackendRegistry::createBare(std::string_view name,
+                                                               const Devices& devices) const {
+    if (const std::optional<CheckName> check = parseCheckName(name)) {
+        const auto inner = [&](std::string_view wanted) -> std::unique_ptr<TraceBackend> {
+            if (wanted.empty())
+                return nullptr;
+            return createBare(wanted == "auto" ? std::string_view(preferred()) : wanted, devices);
+        };
+        return makeCheckBackend(inner(check->first), inner(check->second), check_report_);
+    }
     auto found =
         std::ranges::find_if(entries_, [&](const Entry& entry) { return entry.name == name; });
     HONE_ASSERT(found != entries_.end(), "no trace backend is called " + std::string(name));

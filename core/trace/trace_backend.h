@@ -15,6 +15,7 @@
 namespace hone {
 
 class SceneBuffers;
+struct CheckReport;
 
 /// How the rays of a list relate to each other: a hint about speed, never about the answer.
 enum class Coherence : std::uint8_t {
@@ -97,7 +98,8 @@ public:
 };
 
 /// The backends that this program offers, by name; filled by the application (backends never
-/// register themselves).
+/// register themselves). Wherever a name is taken, "check(X)" and "check(X,Y)" are, too
+/// (check_backend.h), X and Y being "auto" or names of those.
 class TraceBackendRegistry {
 public:
     /// Makes a backend that may use these devices. Throws DeviceError that says what is missing.
@@ -111,7 +113,20 @@ public:
     /// Throws std::logic_error for a name that is not there ("auto" is none: see
     /// chooseTracer()).
     [[nodiscard]] std::unique_ptr<TraceBackend> create(std::string_view name,
-                                                       const Devices& devices) const;
+                                                       const Devices& devices) const {
+        return wrap(createBare(name, devices));
+    }
+    /// create() without what wrapEach() puts around: for trying backends out, of which wrap()
+    /// then makes the chosen one what create() had given.
+    [[nodiscard]] std::unique_ptr<TraceBackend> createBare(std::string_view name,
+                                                           const Devices& devices) const;
+    [[nodiscard]] std::unique_ptr<TraceBackend> wrap(std::unique_ptr<TraceBackend> backend) const;
+
+    /// Where checks that are created from now on add what they find; it must outlive them.
+    void reportChecksTo(CheckReport& report) { check_report_ = &report; }
+    /// Puts something around every backend that is created from now on.
+    using Wrapper = std::function<std::unique_ptr<TraceBackend>(std::unique_ptr<TraceBackend>)>;
+    void wrapEach(Wrapper wrapper) { wrapper_ = std::move(wrapper); }
 
 private:
     struct Entry {
@@ -119,6 +134,8 @@ private:
         Factory factory;
     };
     std::vector<Entry> entries_;
+    CheckReport* check_report_ = nullptr;
+    Wrapper wrapper_;
 };
 
 } // namespace hone

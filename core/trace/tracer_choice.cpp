@@ -68,7 +68,7 @@ std::vector<Candidate> findCandidates(const TraceBackendRegistry& registry, cons
     std::vector<Candidate> found;
     for (const std::string& name : registry.names()) {
         try {
-            std::unique_ptr<TraceBackend> backend = registry.create(name, devices);
+            std::unique_ptr<TraceBackend> backend = registry.createBare(name, devices);
             const TraceCaps caps = backend->caps();
             const bool is_alias = caps.name != name && registry.contains(caps.name);
             if (is_alias)
