@@ -85,6 +85,8 @@ bool TracerConformance::occluded(const Ray& ray) const {
     return answers.front() == 1;
 }
 
+// A program may link the suite and run it only when asked to.
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(TracerConformance);
 INSTANTIATE_TEST_SUITE_P(All, TracerConformance, testing::ValuesIn(tracers()),
                          [](const testing::TestParamInfo<TracerUnderTest>& tested) {
                              return tested.param.name;

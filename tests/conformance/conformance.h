@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hone/core/trace/trace_backend.h"
+#include "hone/tests/conformance/conformance_kit.h"
 #include "hone/tests/support/scene_builder.h"
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,20 +14,8 @@
 
 namespace hone::test {
 
-/// A tracer that the suite runs on.
-struct TracerUnderTest {
-    std::string name; ///< letters, digits and _
-    /// May throw DeviceError where the machine lacks what it needs: its cases are skipped then,
-    /// with that reason.
-    std::function<std::unique_ptr<TraceBackend>()> make;
-    bool is_brute = false; ///< tests every triangle: gets smaller scenes
-    bool is_slow = false;  ///< answers few rays a second, or takes long for each list: gets fewer
-    /// The device whose buffers its lists may lie in; empty: none.
-    std::function<Device*()> memory = {};
-};
-
-/// Adds a tracer to the suite; call it before testing::InitGoogleTest. A tracer that lives
-/// elsewhere links this folder's sources but main.cpp, adds itself, and runs all tests.
+/// Adds a tracer to the suite; call it before testing::InitGoogleTest, for a program of one's own
+/// with all of GoogleTest's options. runConformance() (conformance_kit.h) is the simpler way.
 void addTracer(TracerUnderTest tracer);
 
 /// What every tracer promises (trace_backend.h), asked in every way that there is: as a coherent
