@@ -76,6 +76,8 @@ int guarded(const std::function<int()>& command, std::ostream& err) {
     } catch (const std::bad_alloc&) {
         err << "out of memory\n";
         return kNoMemory;
+    } catch (const CheckFailed& problem) {
+        return report(problem, kTargetNotMet);
     } catch (const OutputError& problem) {
         return report(problem, kNotWritten);
     } catch (const std::exception& problem) {
@@ -100,7 +102,8 @@ std::string findGraph(const std::string& name) {
     return name; // the reader's own message says that it is not there
 }
 
-int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::ostream& err) {
+int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::ostream& err,
+                   const ConformanceKit& kit) {
     const Console console{out, err, &err == &std::cerr && isatty(STDERR_FILENO) != 0};
     CLI::App app{
         "Render graphs that rasterise first and trace the worst pixels: smart image refinement.\n"
@@ -167,6 +170,12 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
         ->check(CLI::NonNegativeNumber);
     render_app->add_option("--reference", render_arguments.reference,
                            "compare the color output with this image");
+    render_app->add_option("--record", render_arguments.record,
+                           "write every ray and its answer to this file, for hone replay");
+    render_app
+        ->add_option("--record-limit", render_arguments.record_limit,
+                     "stop recording at so many bytes (1073741824; units like 4GB work)")
+        ->transform(CLI::AsSizeValue(false));
     render_app->add_flag("--validate", render_arguments.validate,
                          "run Vulkan's validation layer; a message fails the run");
     render_app->add_flag("-q,--quiet", render_arguments.quiet, "no progress and no summary");
@@ -206,6 +215,31 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
                           "images differ there; exit 1 if rounding does not explain it");
     compare_app->add_flag("--json", compare_arguments.json, "one JSON object on standard output");
     chosen(compare_app, [&] { return compare(compare_arguments, console); });
+
+    ReplayArguments replay_arguments;
+    CLI::App* replay_app = app.add_subcommand(
+        "replay", "ask trace backends again what a run asked, and compare their answers");
+    replay_app->add_option("file", replay_arguments.file, "what hone render --record wrote")
+        ->required();
+    replay_app->add_option("--backend", replay_arguments.backend,
+                           "which to ask (the recorded one), or all");
+    replay_app->add_option("--scene", replay_arguments.scene, "the scene (the recorded one)");
+    replay_app->add_option("--device", replay_arguments.device,
+                           "Vulkan device: part of its name, its index, or none");
+    replay_app->add_flag("--json", replay_arguments.json, "one JSON object on standard output");
+    chosen(replay_app, [&] { return replay(replay_arguments, console); });
+
+    SelftestArguments selftest_arguments;
+    CLI::App* selftest_app = app.add_subcommand(
+        "selftest", "hold the trace backends, on this machine, to what they promise");
+    selftest_app
+        ->add_option("--backends", selftest_arguments.backends, "which to test (all that are here)")
+        ->expected(0, -1)
+        ->delimiter(';');
+    selftest_app->add_option("--device", selftest_arguments.device,
+                             "Vulkan device: part of its name, its index, or none");
+    selftest_app->add_flag("--json", selftest_arguments.json, "one JSON object on standard output");
+    chosen(selftest_app, [&] { return selftest(selftest_arguments, kit, console); });
 
     DoctorArguments doctor_arguments;
     CLI::App* doctor_app =
@@ -268,7 +302,8 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     }
     for (SessionArguments* arguments : std::initializer_list<SessionArguments*>{
              &demo_arguments, &render_arguments, &check_arguments, &passes_arguments,
-             &compare_arguments, &doctor_arguments, &bench_arguments, &tracers_arguments})
+             &compare_arguments, &doctor_arguments, &replay_arguments, &selftest_arguments,
+             &bench_arguments, &tracers_arguments})
         arguments->plugins = plugins;
     if (verbose)
         logger().set_level(spdlog::level::info);

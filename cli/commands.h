@@ -3,8 +3,11 @@
 
 #include "hone/core/graph/compiled_graph.h"
 #include "hone/core/math.h"
+#include "hone/tests/conformance/conformance_kit.h"
 
+#include <functional>
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +26,10 @@ enum ExitCode : int {
     kInterrupted = 130,
     kInternal = 70,
 };
+
+/// Holds trace backends to what every one promises (test::runConformance).
+using ConformanceKit =
+    std::function<std::vector<test::CaseResult>(std::span<const test::TracerUnderTest>)>;
 
 /// Where a command speaks: data for programs to `out`, everything for people to `err`.
 struct Console {
@@ -77,8 +84,24 @@ struct RenderArguments : SessionArguments {
     std::uint64_t iterations = 0;
     long long max_copies = -1; ///< between memories; more fail the run; negative = no limit
     std::string reference;     ///< an image to compare "color" with
-    bool validate = false;     ///< Vulkan validation layer; messages fail the run
+    std::string record;        ///< file to write every ray and answer to; "" = none
+    std::uint64_t record_limit = std::uint64_t{1} << 30; ///< bytes of it
+    bool validate = false; ///< Vulkan validation layer; messages fail the run
     bool quiet = false;
+    bool json = false;
+};
+
+struct ReplayArguments : SessionArguments {
+    std::string file;
+    std::string backend; ///< "" = the one that was recorded; "all"
+    std::string scene;   ///< "" = the one that was recorded
+    std::string device;
+    bool json = false;
+};
+
+struct SelftestArguments : SessionArguments {
+    std::vector<std::string> backends; ///< empty: all
+    std::string device;
     bool json = false;
 };
 
@@ -110,12 +133,16 @@ int passes(const PassesArguments& arguments, const Console& console);
 int compare(const CompareArguments& arguments, const Console& console);
 int doctor(const DoctorArguments& arguments, const Console& console);
 int render(const RenderArguments& arguments, const Console& console);
+int replay(const ReplayArguments& arguments, const Console& console);
+int selftest(const SelftestArguments& arguments, const ConformanceKit& kit, const Console& console);
 int demo(const DemoArguments& arguments, const Console& console);
 int benchParts(const BenchPartsArguments& arguments, const Console& console);
 int benchTracers(const BenchTracersArguments& arguments, const Console& console);
 
 /// Reads the command line, runs the command, turns exceptions into one message and an exit code.
-int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::ostream& err);
+/// `kit`: what selftest runs; empty where the program was built without.
+int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::ostream& err,
+                   const ConformanceKit& kit = {});
 
 /// A shipped graph by file or by name: "sir" and "graphs/sir.json" find the installed or source
 /// tree's graph when no such file is in the working directory.

@@ -4,5 +4,9 @@
 #include <iostream>
 
 int main(int argc, char** argv) {
-    return hone::cli::runCommandLine(argc, argv, std::cout, std::cerr);
+    hone::cli::ConformanceKit kit;
+#ifdef HONE_SELFTEST
+    kit = hone::test::runConformance;
+#endif
+    return hone::cli::runCommandLine(argc, argv, std::cout, std::cerr, kit);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // hone render: runs a graph and writes its outputs.
+#include "hone/cli/check_report.h"
 #include "hone/cli/commands.h"
 #include "hone/cli/copies.h"
 #include "hone/cli/json.h"
@@ -129,9 +130,22 @@ int render(const RenderArguments& arguments, const Console& console) {
     const double frame_ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 
-    const std::vector<std::string> paths =
+    std::vector<std::string> paths =
         writeOutputs(*stage->executor, arguments.output_directory, provenanceOf(*stage, arguments));
     Json result = report(*stage, arguments, frame_ms, paths);
+    if (stage->recorder != nullptr) {
+        stage->recorder->finish();
+        result["record"] = {{"path", arguments.record},
+                            {"bytes", stage->recorder->bytes()},
+                            {"is_cut", stage->recorder->isCut()}};
+        paths.push_back(arguments.record);
+    }
+    if (const CheckReport& checked = stage->session.checkReport();
+        checked.closest.lists + checked.occluded.lists > 0) {
+        result["check"] = toJson(checked);
+        if (!arguments.quiet)
+            console.err << toText(checked);
+    }
     // A run that was cancelled early may have no colour yet.
     if (!arguments.reference.empty() && stage->executor->output("color").version != 0) {
         const Value& color = stage->executor->output("color");

@@ -46,6 +46,10 @@ std::unique_ptr<Stage> makeStage(const RenderArguments& arguments, const Console
     auto stage = std::make_unique<Stage>(arguments.plugins);
     CompiledGraph graph =
         loadGraph(findGraph(arguments.graph), stage->session.catalog(), arguments.overrides);
+    if (!arguments.record.empty()) {
+        stage->recorder = std::make_unique<TraceRecorder>(arguments.record, arguments.record_limit);
+        stage->session.record(*stage->recorder);
+    }
     stage->scene = loadScene(arguments.scene);
     for (const std::string& warning : stage->scene.warnings)
         console.err << "warning: " << warning << "\n";

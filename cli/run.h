@@ -17,6 +17,7 @@ struct Stage {
     Devices devices;
     Scene scene;
     Camera camera{};
+    std::unique_ptr<TraceRecorder> recorder; ///< null: nothing is recorded
     std::unique_ptr<Executor> executor;
 };
 

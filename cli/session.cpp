@@ -18,6 +18,7 @@ namespace hone::cli {
 Session::Session(std::span<const std::string> plugins) {
     registerPasses(passes_);
     registerTraceBackends(trace_backends_);
+    trace_backends_.reportChecksTo(check_report_);
 
     PluginSearch search;
     search.files.assign(plugins.begin(), plugins.end());
@@ -30,6 +31,12 @@ Session::Session(std::span<const std::string> plugins) {
     plugins_ = loadPlugins(search, trace_backends_, hostParallelFor, plugin_problems_);
     for (const std::string& problem : plugin_problems_)
         logger().warn("{}", problem);
+}
+
+void Session::record(TraceRecorder& recorder) {
+    trace_backends_.wrapEach([&recorder](std::unique_ptr<TraceBackend> backend) {
+        return makeRecordBackend(std::move(backend), recorder);
+    });
 }
 
 Devices Session::openDevices(const std::string& vulkan_name, bool validation) {

@@ -4,6 +4,8 @@
 #include "hone/core/device/device.h"
 #include "hone/core/graph/executor.h"
 #include "hone/core/plugin/plugin.h"
+#include "hone/core/trace/check_backend.h"
+#include "hone/core/trace/trace_recorder.h"
 
 #include <memory>
 #include <span>
@@ -23,6 +25,10 @@ public:
     [[nodiscard]] Catalog catalog() const { return {&passes_, &trace_backends_}; }
     [[nodiscard]] const PassRegistry& passes() const { return passes_; }
     [[nodiscard]] const TraceBackendRegistry& traceBackends() const { return trace_backends_; }
+    /// What backends with names like check(embree) found so far.
+    [[nodiscard]] const CheckReport& checkReport() const { return check_report_; }
+    /// Records every backend that is made from now on; `recorder` must outlive them.
+    void record(TraceRecorder& recorder);
 
     [[nodiscard]] std::span<const Plugin> plugins() const { return plugins_; }
     /// Why plug-ins that were found were left out.
@@ -37,6 +43,7 @@ public:
 
 private:
     PassRegistry passes_;
+    CheckReport check_report_;
     TraceBackendRegistry trace_backends_;
     std::vector<Plugin> plugins_;
     std::vector<std::string> plugin_problems_;
