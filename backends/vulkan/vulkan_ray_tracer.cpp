@@ -100,7 +100,7 @@ BuildStats VulkanRayTracer::update(std::span<const uint> moved) {
 
 void VulkanRayTracer::makeTree(bool is_refitted) {
     tree_.reset();
-    tree_.emplace(*device_, *scene_, params_.flatten_triangles, is_refitted);
+    tree_.emplace(*device_, *scene_, params_, is_refitted);
 }
 
 BuildStats VulkanRayTracer::stats(double ms) const {

@@ -40,10 +40,10 @@ VkAccelerationStructureInstanceKHR placeTree(const mat4x3& to_world, bool is_two
 
 } // namespace
 
-VulkanSceneTree::VulkanSceneTree(Device& device, const Scene& scene, std::size_t flatten_triangles,
+VulkanSceneTree::VulkanSceneTree(Device& device, const Scene& scene, const RayTracerParams& params,
                                  bool is_refitted)
-    : device_(&device), inside_(insideOf(device)), scene_(&scene), surface_(scene),
-      is_refitted_(is_refitted), is_instanced_(chooseInstanced(scene, flatten_triangles)),
+    : device_(&device), inside_(insideOf(device)), scene_(&scene), surface_(scene), params_(params),
+      is_refitted_(is_refitted), is_instanced_(chooseInstanced(scene, params.flatten_triangles)),
       by_instance_(scene.instances.size()), by_mesh_(scene.meshes.size()) {
     TriangleSoup soup;
     addFlat(soup);
@@ -75,25 +75,37 @@ uint VulkanSceneTree::flagsOf(uint mesh) const {
     return scene_->materials[scene_->meshes[mesh].material].flags;
 }
 
+std::vector<std::vector<uint>> VulkanSceneTree::groupFlat() const {
+    const bool is_apart = device_->info().is_software && by_instance_.size() <= params_.most_apart;
+    std::vector<std::vector<uint>> groups(is_apart ? by_instance_.size() : 2);
+    for (uint i = 0; i < by_instance_.size(); ++i) {
+        const bool is_two_sided = (flagsOf(scene_->instances[i].mesh) & kMaterialTwoSided) != 0;
+        if (!isInstanced(i))
+            groups[is_apart ? i : is_two_sided ? 1 : 0].push_back(i);
+    }
+    return groups;
+}
+
 void VulkanSceneTree::addFlat(TriangleSoup& soup) {
-    for (const uint two_sided : {0u, kMaterialTwoSided}) {
-        FlatTree tree{.is_two_sided = two_sided != 0, .geometries = {}};
+    const auto end = [&soup] { return static_cast<uint>(soup.names.size()); };
+    for (const std::vector<uint>& group : groupFlat()) {
+        const uint before = end();
+        FlatTree tree;
         for (const uint masked : {0u, kMaterialMasked}) {
-            const auto first = static_cast<uint>(soup.names.size());
-            for (uint i = 0; i < by_instance_.size(); ++i) {
+            Stretch& geometry = tree.geometries[masked != 0 ? 1 : 0];
+            geometry.first = end();
+            for (const uint i : group) {
                 const uint flags = flagsOf(scene_->instances[i].mesh);
-                if (isInstanced(i) ||
-                    (flags & (kMaterialTwoSided | kMaterialMasked)) != (two_sided | masked))
+                if ((flags & kMaterialMasked) != masked)
                     continue;
-                by_instance_[i].first = static_cast<uint>(soup.names.size());
+                tree.is_two_sided = (flags & kMaterialTwoSided) != 0;
+                by_instance_[i].first = end();
                 soup.addInstance(*scene_, surface_, i);
-                by_instance_[i].count =
-                    static_cast<uint>(soup.names.size()) - by_instance_[i].first;
+                by_instance_[i].count = end() - by_instance_[i].first;
             }
-            tree.geometries[masked != 0 ? 1 : 0] = {first,
-                                                    static_cast<uint>(soup.names.size()) - first};
+            geometry.count = end() - geometry.first;
         }
-        if (tree.geometries[0].count + tree.geometries[1].count > 0)
+        if (end() > before)
             flat_.push_back(tree);
     }
 }

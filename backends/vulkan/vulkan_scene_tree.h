@@ -3,6 +3,7 @@
 
 #include "hone/backends/vulkan/triangle_soup.h"
 #include "hone/backends/vulkan/vulkan_acceleration.h"
+#include "hone/backends/vulkan/vulkan_tracers.h"
 #include "hone/backends/vulkan/vulkan_tree.glsl.h"
 
 #include <array>
@@ -14,16 +15,16 @@ namespace hone {
 /// A scene as a Vulkan device traces it: acceleration structures, and the names of their triangles.
 ///
 /// Meshes stand in the world in two flat structures, one of single-sided and one of two-sided
-/// triangles, because an instance says whether back faces can be culled; in each, masked triangles
-/// are a geometry of their own, so that opaque ones are settled without a shader. A mesh whose
-/// copies would fill memory (chooseInstanced) gets a structure in its own space and an instance for
-/// each copy.
+/// triangles, because an instance says whether back faces can be culled (on a software device, in
+/// one for each of them); in each, masked triangles are a geometry of their own, so that opaque
+/// ones are settled without a shader. A mesh whose copies would fill memory (chooseInstanced) gets
+/// a structure in its own space and an instance for each copy.
 class VulkanSceneTree {
 public:
     /// Builds and waits. Borrows `device` and `scene`. `is_refitted`: update() may be called, at
     /// the price of memory for the corners and, on some devices, of slower queries.
     /// Throws OutOfMemory, DeviceError.
-    VulkanSceneTree(Device& device, const Scene& scene, std::size_t flatten_triangles,
+    VulkanSceneTree(Device& device, const Scene& scene, const RayTracerParams& params,
                     bool is_refitted);
     VulkanSceneTree(const VulkanSceneTree&) = delete;
 
@@ -60,6 +61,8 @@ private:
 
     [[nodiscard]] bool isInstanced(uint instance) const;
     [[nodiscard]] uint flagsOf(uint mesh) const;
+    /// The instances of each flat structure; all of one are single-sided, or all two-sided.
+    [[nodiscard]] std::vector<std::vector<uint>> groupFlat() const;
     void addFlat(TriangleSoup& soup);
     void addMeshes(TriangleSoup& soup);
     [[nodiscard]] AddressedBuffer upload(const TriangleSoup& soup, Stretch stretch) const;
@@ -71,6 +74,7 @@ private:
     VulkanInside inside_;
     const Scene* scene_;
     HostSurface surface_;
+    RayTracerParams params_;
     bool is_refitted_;
     std::vector<std::uint8_t> is_instanced_; ///< by mesh
     std::size_t triangles_ = 0;

@@ -31,14 +31,19 @@ int main(int argc, char** argv) {
                      .make = [] { return makeEmbreeBackendWith({.flatten_triangles = 0}); }});
     test::addTracer({.name = "vulkan_ray_query",
                      .make = [] { return makeRayQueryTracer(sharedVulkanDevice()); },
-                     .is_slow = true});
+                     .is_slow = true,
+                     .memory = [] { return &sharedVulkanDevice(); }});
     test::addTracer(
         {.name = "vulkan_ray_query_instances",
          .make = [] { return makeRayQueryTracer(sharedVulkanDevice(), {.flatten_triangles = 0}); },
-         .is_slow = true});
-    test::addTracer({.name = "vulkan_ray_pipeline",
-                     .make = [] { return makeRayPipelineTracer(sharedVulkanDevice()); },
-                     .is_slow = true});
+         .is_slow = true,
+         .memory = [] { return &sharedVulkanDevice(); }});
+    // Flattened instances stand in one tree.
+    test::addTracer(
+        {.name = "vulkan_ray_pipeline",
+         .make = [] { return makeRayPipelineTracer(sharedVulkanDevice(), {.most_apart = 0}); },
+         .is_slow = true,
+         .memory = [] { return &sharedVulkanDevice(); }});
     test::addTracer(
         {.name = "bvh", .make = [] { return makeBvhTracer(hostDevice(), buildBinnedBvh, {}); }});
     test::addTracer({.name = "bvh_instances", .make = [] {

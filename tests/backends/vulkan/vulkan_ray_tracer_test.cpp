@@ -36,6 +36,10 @@ protected:
 INSTANTIATE_TEST_SUITE_P(All, VulkanRays, testing::Values("ray_query", "ray_pipeline"),
                          [](const auto& tested) { return std::string(tested.param); });
 
+/// Flat trees apart, flat trees together, a tree for each mesh.
+constexpr RayTracerParams kTrees[] = {
+    {}, {.flatten_triangles = 100, .most_apart = 0}, {.flatten_triangles = 0, .most_apart = 0}};
+
 constexpr Hit kMiss{kNone, kNone};
 
 Ray downAt(float x, float y) {
@@ -149,9 +153,9 @@ TEST_P(VulkanRays, InstanceMeshesPastTheBudget) {
 }
 
 TEST_P(VulkanRays, FollowInstancesThatMove) {
-    for (const std::size_t flatten : {std::size_t{100}, std::size_t{0}}) {
+    for (const RayTracerParams& params : kTrees) {
         Scene scene = triangles(3);
-        const auto tracer = make({.flatten_triangles = flatten});
+        const auto tracer = make(params);
         tracer->build(scene);
         for (const float y : {10.0f, 20.0f}) { // the first move builds, the second refits
             move(scene, 1, {2, y, 0});
@@ -165,9 +169,9 @@ TEST_P(VulkanRays, FollowInstancesThatMove) {
 }
 
 TEST_P(VulkanRays, FollowInstancesThatAMoveMirrors) {
-    for (const std::size_t flatten : {std::size_t{100}, std::size_t{0}}) {
+    for (const RayTracerParams& params : kTrees) {
         Scene scene = triangles(2);
-        const auto tracer = make({.flatten_triangles = flatten});
+        const auto tracer = make(params);
         tracer->build(scene);
         const Ray up{{0.25f, 0.25f, -5}, 0, {0, 0, 1}, 1e30f};
         for (int round = 0; round < 3; ++round) {
@@ -184,9 +188,9 @@ TEST_P(VulkanRays, FollowInstancesThatAMoveMirrors) {
 }
 
 TEST_P(VulkanRays, FollowInstancesThatAMoveFlattens) {
-    for (const std::size_t flatten : {std::size_t{100}, std::size_t{0}}) {
+    for (const RayTracerParams& params : kTrees) {
         Scene scene = triangles(2);
-        const auto tracer = make({.flatten_triangles = flatten});
+        const auto tracer = make(params);
         tracer->build(scene);
         for (int round = 0; round < 2; ++round) {
             move(scene, 0, {}, {1, 1, 0}); // into its own plane: still there
