@@ -127,7 +127,12 @@ TEST(Architecture, EveryFileNamesItsLicence) {
         std::ifstream file(path);
         std::string first;
         std::getline(file, first);
-        EXPECT_EQ(first, "// SPDX-License-Identifier: Apache-2.0") << path;
+        // A C header has no other comments.
+        if (first.starts_with("/*")) {
+            EXPECT_EQ(first, "/* SPDX-License-Identifier: Apache-2.0 */") << path;
+        } else {
+            EXPECT_EQ(first, "// SPDX-License-Identifier: Apache-2.0") << path;
+        }
     }
 }
 

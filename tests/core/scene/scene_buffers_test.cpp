@@ -43,8 +43,9 @@ TEST(SceneBuffers, BindEachArrayUnderItsNameWithAllItsBytes) {
     std::size_t arrays = 0;
     forEachSceneArray(scene, [&](std::string_view name, auto elements) {
         ++arrays;
-        if (!elements.empty())
+        if (!elements.empty()) {
             EXPECT_EQ(buffers.find(name).bytes, elements.size_bytes()) << name;
+        }
     });
     EXPECT_EQ(buffers.arguments().size(), arrays);
 }

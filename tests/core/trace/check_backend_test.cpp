@@ -19,8 +19,9 @@ using test::SceneBuilder;
 
 /// What a tracer that breaks its promises does to the answers of one that keeps them.
 struct Faults {
-    std::function<void(std::span<const Ray>, std::span<Hit>, Coherence, const TraceOptions&)> hits;
-    std::function<void(std::span<const Ray>, std::span<uint>)> occluded;
+    std::function<void(std::span<const Ray>, std::span<Hit>, Coherence, const TraceOptions&)>
+        hits{};
+    std::function<void(std::span<const Ray>, std::span<uint>)> occluded{};
     TraceCaps caps{.name = "faulty", .version = "1", .runs_on = "host", .always_exact = true};
 };
 
