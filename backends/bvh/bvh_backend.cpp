@@ -73,7 +73,8 @@ public:
     BuildStats update(std::span<const uint> moved) override {
         HONE_ASSERT(tree_.has_value(), "build() comes before update()");
         const auto begin = std::chrono::steady_clock::now();
-        tree_->update(moved);
+        if (!tree_->update(moved))
+            return build(*scene_, shared_);
         write(tree_->nodes(), nodes_);
         write(tree_->triangles(), triangles_);
         write(tree_->instances(), instances_);

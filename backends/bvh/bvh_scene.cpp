@@ -247,10 +247,13 @@ void BvhScene::writeBox(uint index) {
     node.half_size = kUp * glm::max(bounds.high - node.center, node.center - bounds.low);
 }
 
-void BvhScene::update(std::span<const uint> moved) {
+bool BvhScene::update(std::span<const uint> moved) {
     std::vector<std::uint8_t> is_moved(scene_->instances.size(), 0);
     for (const uint instance : moved)
         is_moved[instance] = 1;
+    for (const BvhInstance& placed : instances_)
+        if (is_moved[placed.instance] != 0 && !isInvertible(scene_->instances[placed.instance]))
+            return false;
     for (uint i = 0; i < world_triangles_; ++i) {
         BvhTriangle& triangle = triangles_[i];
         if (is_moved[triangle.instance] == 0)
@@ -283,6 +286,7 @@ void BvhScene::update(std::span<const uint> moved) {
         }
         writeBox(index);
     }
+    return true;
 }
 
 float BvhScene::extent() const {

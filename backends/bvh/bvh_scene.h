@@ -21,8 +21,9 @@ public:
     /// name.
     BvhScene(const Scene& scene, const BvhBuilder& builder, std::size_t flatten_triangles);
 
-    /// Follows instances that moved: new corners, and boxes that hold them.
-    void update(std::span<const uint> moved);
+    /// Follows instances that moved: new corners, and boxes that hold them. False, and nothing is
+    /// changed, if one that has a tree of its own lost its inverse: build anew.
+    [[nodiscard]] bool update(std::span<const uint> moved);
 
     [[nodiscard]] std::span<const BvhNode> nodes() const { return nodes_; }
     [[nodiscard]] std::span<const uint> skips() const { return skips_; } ///< by octant, by node

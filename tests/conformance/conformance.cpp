@@ -27,6 +27,10 @@ std::vector<TracerUnderTest>& tracers() {
 
 } // namespace
 
+void PrintTo(const TracerUnderTest& tracer, std::ostream* out) {
+    *out << tracer.name;
+}
+
 void addTracer(TracerUnderTest tracer) {
     tracers().push_back(std::move(tracer));
 }

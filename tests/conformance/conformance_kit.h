@@ -5,6 +5,7 @@
 #include "hone/core/trace/trace_backend.h"
 
 #include <functional>
+#include <iosfwd>
 #include <memory>
 #include <span>
 #include <string>
@@ -23,6 +24,9 @@ struct TracerUnderTest {
     /// The device whose buffers its lists may lie in; empty: none.
     std::function<Device*()> memory = {};
 };
+
+/// By its name, where GoogleTest prints parameters.
+void PrintTo(const TracerUnderTest& tracer, std::ostream* out);
 
 /// What became of one case on one tracer.
 struct CaseResult {

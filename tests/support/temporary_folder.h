@@ -14,7 +14,7 @@ public:
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
     [[nodiscard]] std::string path(const std::string& name = "") const {
-        return (folder_ / name).string();
+        return name.empty() ? folder_.string() : (folder_ / name).string();
     }
     /// Writes a file into the folder; returns its path.
     [[nodiscard]] std::string write(const std::string& name, const std::string& text) const;
