@@ -10,17 +10,18 @@ namespace hone::cli {
 namespace {
 
 /// Renders the small Cornell box without rasterising, and records its rays.
-CommandRun record(const std::string& folder, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> arguments{
-        "render", "prt", "--scene", "builtin:cornell", "--size",         "24x16",   "--device",
-        "none",   "-o",  folder,    "--record",        folder + "/rays", "--quiet", "--json"};
+CommandRun record(const TemporaryFolder& folder, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"render",  "prt",         "--scene",  "builtin:cornell",
+                                       "--size",  "24x16",       "--device", "none",
+                                       "-o",      folder.path(), "--record", folder.path("rays"),
+                                       "--quiet", "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return runHone(arguments);
 }
 
 TEST(Replay, AsksTheRecordedBackendAgainAndFindsNoDifference) {
     const TemporaryFolder folder;
-    const CommandRun rendered = record(folder.path());
+    const CommandRun rendered = record(folder);
     ASSERT_EQ(rendered.code, 0) << rendered.err;
     EXPECT_EQ(rendered.json()["record"]["path"], folder.path("rays"));
     EXPECT_EQ(rendered.json()["record"]["is_cut"], false);
@@ -39,7 +40,7 @@ TEST(Replay, AsksTheRecordedBackendAgainAndFindsNoDifference) {
 
 TEST(Replay, FindsAllBackendsEqualUpToRounding) {
     const TemporaryFolder folder;
-    ASSERT_EQ(record(folder.path()).code, 0);
+    ASSERT_EQ(record(folder).code, 0);
     const CommandRun run =
         runHone({"replay", folder.path("rays"), "--backend", "all", "--device", "none", "--json"});
     EXPECT_EQ(run.code, 0) << run.err;
@@ -48,7 +49,7 @@ TEST(Replay, FindsAllBackendsEqualUpToRounding) {
 
 TEST(Replay, SaysWhichRayABackendAnswersWrong) {
     const TemporaryFolder folder;
-    ASSERT_EQ(record(folder.path()).code, 0);
+    ASSERT_EQ(record(folder).code, 0);
     const CommandRun run =
         runHone({"replay", folder.path("rays"), "--backend", "null", "--device", "none"});
     EXPECT_EQ(run.code, 1);
@@ -58,7 +59,7 @@ TEST(Replay, SaysWhichRayABackendAnswersWrong) {
 
 TEST(Replay, RefusesOtherFilesScenesAndBackends) {
     const TemporaryFolder folder;
-    ASSERT_EQ(record(folder.path()).code, 0);
+    ASSERT_EQ(record(folder).code, 0);
     EXPECT_EQ(runHone({"replay", folder.write("text", "no recording")}).code, 3);
     EXPECT_EQ(runHone({"replay", folder.path("absent")}).code, 3);
     const CommandRun other =
@@ -69,7 +70,7 @@ TEST(Replay, RefusesOtherFilesScenesAndBackends) {
 
 TEST(Replay, StopsARecordingAtItsLimitButNotTheRun) {
     const TemporaryFolder folder;
-    const CommandRun rendered = record(folder.path(), {"--record-limit", "20000"});
+    const CommandRun rendered = record(folder, {"--record-limit", "20000"});
     ASSERT_EQ(rendered.code, 0) << rendered.err;
     EXPECT_EQ(rendered.json()["record"]["is_cut"], true);
     EXPECT_LE(std::filesystem::file_size(folder.path("rays")), 20000u);
@@ -81,7 +82,7 @@ TEST(Replay, StopsARecordingAtItsLimitButNotTheRun) {
 
 TEST(Check, ReportsWhatItCounted) {
     const TemporaryFolder folder;
-    const CommandRun run = record(folder.path(), {"--set", "backend=check(embree,brute)"});
+    const CommandRun run = record(folder, {"--set", "backend=check(embree,brute)"});
     ASSERT_EQ(run.code, 0) << run.err;
     const nlohmann::json check = run.json()["check"];
     EXPECT_GE(check["closest"]["rays"], 24 * 16);
@@ -91,7 +92,7 @@ TEST(Check, ReportsWhatItCounted) {
 
 TEST(Check, EndsTheRunWhereABackendIsWrong) {
     const TemporaryFolder folder;
-    const CommandRun run = record(folder.path(), {"--set", "backend=check(embree,null)"});
+    const CommandRun run = record(folder, {"--set", "backend=check(embree,null)"});
     EXPECT_EQ(run.code, 1);
     EXPECT_NE(run.err.find("check(embree,null): closest hit"), std::string::npos) << run.err;
     EXPECT_NE(run.err.find("null: nothing  <- wrong"), std::string::npos);
