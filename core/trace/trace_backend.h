@@ -62,10 +62,9 @@ struct BuildStats {
 ///
 /// What every backend answers, bit for bit where arithmetic allows (tests/conformance):
 /// - A *closest* hit is the one with the least t in [tmin, tmax]. Back faces of materials without
-/// kMaterialTwoSided are
-///   not seen, as the rasteriser culls them; a front face turns counter-clockwise seen from the
-///   ray's origin (clockwise where Instance::flipped). Equal t: either may be answered, unless caps
-///   say settles_ties.
+/// kMaterialTwoSided are not seen, as the rasteriser culls them; a front face turns
+/// counter-clockwise seen from the ray's origin (clockwise where Instance::flipped). Equal t:
+/// either may be answered, unless caps say settles_ties.
 /// - *Occluded* asks whether anything is in [tmin, tmax]; both faces block.
 /// - Masked materials: a point whose alpha (base level, bilinear, times Material::alpha) is below
 /// alpha_cutoff is a hole.
