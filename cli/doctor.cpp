@@ -72,7 +72,10 @@ int doctor(const DoctorArguments& arguments, const Console& console) {
     for (const std::string& name : session.traceBackends().names()) {
         try {
             const TraceCaps caps = session.traceBackends().create(name, on)->caps();
-            say("trace backend", true, caps.name + " " + caps.version + " on " + caps.runs_on, "");
+            say("trace backend", true,
+                (caps.name == name ? "" : name + " stands for ") + caps.name + " " + caps.version +
+                    " on " + caps.runs_on,
+                "");
         } catch (const DeviceError& problem) {
             say("trace backend", false, name + ": " + problem.what(), "");
         }

@@ -42,7 +42,7 @@ Json report(const Stage& stage, const RenderArguments& arguments, double frame_m
     const std::uint64_t error_pixels = executor.counters().get("error_pixels");
     const Curve* curve = findCurve(executor);
     const bool has_looped = curve != nullptr && !curve->stop.empty();
-    const Tracers::Resolved backend = backendOf(stage);
+    const UsedBackend backend = backendOf(stage);
     return {
         {"graph", executor.graph().name},
         {"scene", stage.scene.name},
@@ -99,12 +99,9 @@ Provenance provenanceOf(const Stage& stage, const RenderArguments& arguments) {
     std::string parameters;
     for (const auto& [name, value] : arguments.overrides)
         parameters += name + "=" + value + "\n";
-    return {{"hone.graph", arguments.graph},
-            {"hone.parameters", parameters},
-            {"hone.scene", stage.scene.name},
-            {"hone.camera", arguments.camera},
-            {"hone.backend", std::string(backendOf(stage).name)},
-            {"hone.seed", std::to_string(arguments.seed)},
+    return {{"hone.graph", arguments.graph},         {"hone.parameters", parameters},
+            {"hone.scene", stage.scene.name},        {"hone.camera", arguments.camera},
+            {"hone.backend", backendOf(stage).name}, {"hone.seed", std::to_string(arguments.seed)},
             {"hone.version", HONE_VERSION}};
 }
 

@@ -81,11 +81,18 @@ void runWithProgress(Stage& stage, const RenderArguments& arguments, const Conso
     stage.executor->run(options);
 }
 
-Tracers::Resolved backendOf(const Stage& stage) {
+UsedBackend backendOf(const Stage& stage) {
     const PlannedParam* param = stage.executor->graph().findParam("backend");
     if (param == nullptr)
         return {};
-    return stage.executor->tracers().resolve(std::get<std::string>(param->value), stage.scene);
+    const auto [asked, reason] =
+        stage.executor->tracers().resolve(std::get<std::string>(param->value), stage.scene);
+    // A name may stand for one of several ways; what is made says which.
+    const std::string made =
+        stage.session.traceBackends().createBare(asked, stage.devices)->caps().name;
+    if (made == asked)
+        return {made, std::string(reason)};
+    return {made, "what " + std::string(asked) + " stands for on this device"};
 }
 
 const Curve* findCurve(const Executor& executor) {

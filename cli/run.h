@@ -40,9 +40,13 @@ public:
 /// Runs with live progress; stops within 250 ms when interrupted while it traces.
 void runWithProgress(Stage& stage, const RenderArguments& arguments, const Console& console);
 
-/// The tracer that the graph's parameter "backend" names, "auto" resolved, and why; empty for a
+/// Who answered the rays, and why it did, for people.
+struct UsedBackend {
+    std::string name, reason;
+};
+/// The tracer that the graph's parameter "backend" names, "auto" and "vulkan" resolved; empty for a
 /// graph that has no such parameter.
-[[nodiscard]] Tracers::Resolved backendOf(const Stage& stage);
+[[nodiscard]] UsedBackend backendOf(const Stage& stage);
 
 /// The curve of the first loop whose statistics are an output; null if there is none.
 [[nodiscard]] const Curve* findCurve(const Executor& executor);
