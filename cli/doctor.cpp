@@ -77,7 +77,8 @@ int doctor(const DoctorArguments& arguments, const Console& console) {
                     " on " + caps.runs_on,
                 "");
         } catch (const DeviceError& problem) {
-            say("trace backend", false, name + ": " + problem.what(), "");
+            const std::string what = problem.what(); // often names it already
+            say("trace backend", false, what.starts_with(name) ? what : name + ": " + what, "");
         }
     }
     for (const Plugin& plugin : session.plugins()) {

@@ -22,8 +22,8 @@ struct EmbreeParams {
 ///
 /// Reads the scene's own triangles, and its positions where nothing is moved: of the scene nothing
 /// is copied. Instances that move leave the tree that was built for one of moved things, which is
-/// refitted: of Sponza's 332 k triangles an object of 10 k follows in a thousandth of a build, one
-/// of 69 k in a fiftieth. Throws DeviceError if the library cannot start.
+/// refitted at a small part of a build's cost; once an eighth of the scene left the built tree,
+/// that is built anew without it. Throws DeviceError if the library cannot start.
 [[nodiscard]] std::unique_ptr<TraceBackend> makeEmbreeBackend();
 /// The same with other parameters.
 [[nodiscard]] std::unique_ptr<TraceBackend> makeEmbreeBackendWith(const EmbreeParams& params);
