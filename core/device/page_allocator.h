@@ -27,7 +27,7 @@ template <class T> struct PageAllocator {
     template <class U> PageAllocator(const PageAllocator<U>&) noexcept {}
 
     [[nodiscard]] T* allocate(std::size_t count) {
-        if (count > (std::numeric_limits<std::size_t>::max() - 2 * kPageBytes) / sizeof(T))
+        if (count > kMostBytes / sizeof(T))
             throw std::bad_array_new_length();
         const std::size_t bytes = wholePages(count * sizeof(T) + kReadable);
         return static_cast<T*>(::operator new (bytes, std::align_val_t{kPageBytes}));
@@ -39,6 +39,9 @@ template <class T> struct PageAllocator {
 
 private:
     static constexpr std::size_t kReadable = 16;
+    /// No object is larger than pointers can be apart.
+    static constexpr std::size_t kMostBytes =
+        std::numeric_limits<std::ptrdiff_t>::max() - 2 * kPageBytes;
 };
 
 /// A vector whose elements a device can use where they are.
