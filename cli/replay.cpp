@@ -109,10 +109,10 @@ public:
                 move(backend, *job);
                 break;
             case JobKind::kClosest:
-                ask<ClosestQuery>(backend, *job, job->hits, result_.closest);
+                ask<ClosestKind>(backend, *job, job->hits, result_.closest);
                 break;
             case JobKind::kOccluded:
-                ask<OccludedQuery>(backend, *job, job->occluded, result_.occluded);
+                ask<OccludedKind>(backend, *job, job->occluded, result_.occluded);
                 break;
             case JobKind::kEnd:
                 break;

@@ -4,6 +4,7 @@
 #include "hone/backends/bvh/bvh_kernels.h"
 #include "hone/backends/bvh/bvh_scene.h"
 #include "hone/core/error.h"
+#include "hone/core/scene/scene_arrays.h"
 #include "hone/core/scene/scene_buffers.h"
 #include "hone/core/trace/query_memory.h"
 
@@ -17,23 +18,6 @@ namespace {
 
 /// Rays of one dispatch at most: their buffers can be bound everywhere, and no dispatch runs long.
 constexpr std::size_t kMostRays = std::size_t{1} << 19;
-
-/// Elements of a buffer as they can be bound: from the last multiple of 256 bytes on.
-struct Window {
-    BufferView view;
-    uint first; ///< of the elements
-
-    Window(BufferView whole, std::size_t element_bytes, std::size_t index, std::size_t count) {
-        constexpr std::size_t kAlignment = 256;
-        const std::size_t begin = whole.offset + index * element_bytes;
-        // Backwards at most to the buffer's begin, which is aligned; without a handle's offset (any
-        // bytes of the host) there is nothing before.
-        const std::size_t aligned = begin / kAlignment * kAlignment;
-        view = {whole.handle, aligned, begin - aligned + count * element_bytes,
-                whole.data + index * element_bytes - (begin - aligned)};
-        first = static_cast<uint>((begin - aligned) / element_bytes);
-    }
-};
 
 class BvhBackend final : public TraceBackend {
 public:
@@ -89,7 +73,7 @@ public:
         if (isEmpty())
             std::ranges::fill(hits, Hit{kNone, kNone});
         else
-            answer(kBvhClosest, "hits", rays, std::as_writable_bytes(hits), sizeof(Hit));
+            answer(kBvhClosest, "hits", rays, hits);
     }
 
     void occluded(std::span<const Ray> rays, std::span<uint> occluded, Coherence,
@@ -98,7 +82,7 @@ public:
         if (isEmpty())
             std::ranges::fill(occluded, 0u);
         else
-            answer(kBvhOccluded, "occluded", rays, std::as_writable_bytes(occluded), sizeof(uint));
+            answer(kBvhOccluded, "occluded", rays, occluded);
     }
 
     std::size_t copiedBytes() const override { return query_.copiedBytes(); }
@@ -140,15 +124,11 @@ private:
     }
 
     [[nodiscard]] Arguments arguments() const {
-        static constexpr const char* kSceneArrays[] = {
-            "scene_positions", "scene_normals",   "scene_uvs",       "scene_triangles",
-            "scene_meshes",    "scene_instances", "scene_materials", "scene_textures",
-            "scene_texels",    "scene_srgb"};
         Arguments result;
-        for (const char* name : kSceneArrays)
-            result.bind(name, {});
         if (tree_->isMasked())
             result.bind((own_buffers_ ? &*own_buffers_ : shared_)->arguments());
+        else
+            forEachSceneArray(*scene_, [&](std::string_view name, auto) { result.bind(name, {}); });
         result.bind("bvh_nodes", nodes_.view());
         result.bind("bvh_skips", skips_.view());
         result.bind("bvh_triangles", triangles_.view());
@@ -158,11 +138,12 @@ private:
     }
 
     /// Runs `kernel`, whose answers go to `port`.
+    template <class Answer>
     void answer(const Kernel& kernel, const char* port, std::span<const Ray> rays,
-                std::span<std::byte> answers, std::size_t answer_bytes) const {
+                std::span<Answer> answers) const {
         if (rays.empty())
             return;
-        query_.bind(rays, answers);
+        query_.bind(rays, std::as_writable_bytes(answers));
         const std::size_t most = std::min(rays.size(), kMostRays);
         if (states_.bytes() < most * sizeof(BvhState))
             states_ = device_->createBuffer(most * sizeof(BvhState), "bvh_states");
@@ -171,12 +152,11 @@ private:
 
         for (std::size_t first = 0; first < rays.size(); first += kMostRays) {
             const auto count = static_cast<uint>(std::min(kMostRays, rays.size() - first));
-            const Window ray_window(query_.rays(), sizeof(Ray), first, count);
-            const Window answer_window(query_.answers(), answer_bytes, first, count);
-            bound.bind("rays", ray_window.view);
-            bound.bind(port, answer_window.view);
-            BvhQueryParams params{.first_ray = ray_window.first,
-                                  .first_answer = answer_window.first,
+            const uint first_ray = bindStretch<Ray>(bound, "rays", query_.rays(), first, count);
+            const uint first_answer =
+                bindStretch<Answer>(bound, port, query_.answers(), first, count);
+            BvhQueryParams params{.first_ray = first_ray,
+                                  .first_answer = first_answer,
                                   .node_count = static_cast<uint>(tree_->nodes().size()),
                                   .step_limit = params_.step_limit,
                                   .is_resumed = 0,

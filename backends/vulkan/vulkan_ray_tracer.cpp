@@ -20,19 +20,6 @@ double msSince(Clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-/// Binds elements [first, first + count) of `view`. Returns where the first of them is in what was
-/// bound: a binding may begin at every 256th byte only.
-template <class T>
-uint bindStretch(Arguments& arguments, std::string_view name, BufferView view, std::size_t first,
-                 std::size_t count) {
-    constexpr std::size_t kAlignment = 256;
-    const std::size_t begin = view.offset + first * sizeof(T);
-    const std::size_t before = begin % kAlignment;
-    arguments.bind(name, {view.handle, begin - before, before + count * sizeof(T),
-                          view.data + first * sizeof(T) - before});
-    return static_cast<uint>(before / sizeof(T));
-}
-
 bool hasMasks(const Scene& scene) {
     return std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
         return (scene.materials[mesh.material].flags & kMaterialMasked) != 0;

@@ -74,12 +74,11 @@ public:
 
     void closest(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence,
                  const TraceOptions& options) const override {
-        check<ClosestQuery>(rays, hits, other_hits_, coherence, options, report_->closest);
+        check<ClosestKind>(rays, hits, other_hits_, coherence, options, report_->closest);
     }
     void occluded(std::span<const Ray> rays, std::span<uint> occluded, Coherence coherence,
                   const TraceOptions& options) const override {
-        check<OccludedQuery>(rays, occluded, other_occluded_, coherence, options,
-                             report_->occluded);
+        check<OccludedKind>(rays, occluded, other_occluded_, coherence, options, report_->occluded);
     }
 
 private:

@@ -7,7 +7,7 @@ std::string witnessText(const Scene& scene, const Difference& difference) {
     if (difference.witness.instance == kNone)
         return "the ray surely meets nothing";
     return "the ray surely meets " +
-           ClosestQuery::text(scene, difference.witness, difference.witness_t);
+           ClosestKind::text(scene, difference.witness, difference.witness_t);
 }
 
 } // namespace hone

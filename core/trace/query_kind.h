@@ -13,7 +13,7 @@
 namespace hone {
 
 /// The two kinds of queries by one spelling, for what treats both alike: checks, records, replays.
-struct ClosestQuery {
+struct ClosestKind {
     using Answer = Hit;
     static constexpr const char* kName = "closest hit";
     /// Put where an answer will be, to see that it is written.
@@ -45,7 +45,7 @@ struct ClosestQuery {
     }
 };
 
-struct OccludedQuery {
+struct OccludedKind {
     using Answer = uint;
     static constexpr const char* kName = "occlusion";
     static constexpr uint kUnwritten = 0xfffffffeu;
