@@ -92,7 +92,7 @@ void Executor::setScene(const Scene& scene) {
 }
 
 void Executor::setCamera(const Camera& camera) {
-    static_assert(sizeof(Camera) == 14 * sizeof(float), "compared byte by byte: no padding");
+    static_assert(sizeof(Camera) == 16 * sizeof(float), "compared byte by byte: no padding");
     if (state_->camera && std::memcmp(&*state_->camera, &camera, sizeof camera) == 0)
         return;
     state_->camera = camera;

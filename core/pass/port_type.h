@@ -33,7 +33,7 @@ namespace types {
 
 inline constexpr PortType kScene{"Scene", Shape::kScene, 0,
                                  "geometry, materials, lights, probes; world space, metres"};
-inline constexpr PortType kCamera{"Camera", Shape::kCamera, 0, "pinhole camera"};
+inline constexpr PortType kCamera{"Camera", Shape::kCamera, 0, "pinhole or thin-lens camera"};
 inline constexpr PortType kExtent{"Extent", Shape::kExtent, 0, "image width and height in pixels"};
 inline constexpr PortType kHits{"Hits", Shape::kPlane, 8,
                                 "uvec2 (instance, primitive) seen through each pixel's centre"};

@@ -287,7 +287,9 @@ Light rectangleLight(vec3 center, vec3 half_u, vec3 half_v, vec3 radiance) {
             .intensity = radiance,
             .cos_inner = 0,
             .cos_outer = 0,
-            .range = 0};
+            .range = 0,
+            .radius = 0,
+            .shadowless = 0};
 }
 
 Light directionalLight(vec3 direction, vec3 irradiance) {
@@ -299,7 +301,9 @@ Light directionalLight(vec3 direction, vec3 irradiance) {
             .intensity = irradiance,
             .cos_inner = 0,
             .cos_outer = 0,
-            .range = 0};
+            .range = 0,
+            .radius = 0,
+            .shadowless = 0};
 }
 
 uint hashed(uint x) {

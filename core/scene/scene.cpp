@@ -45,6 +45,10 @@ Camera makeCamera(const CameraDesc& desc) {
              " degrees; expected more than 0 and less than 180");
     if (!(desc.near > 0.0f) || !std::isfinite(desc.near))
         fail("near is " + std::to_string(desc.near) + " m; expected more than 0");
+    if (!(desc.aperture >= 0.0f) || !std::isfinite(desc.aperture))
+        fail("aperture is " + std::to_string(desc.aperture) + " m; expected 0 or more");
+    if (!(desc.focus > 0.0f) || !std::isfinite(desc.focus))
+        fail("focus is " + std::to_string(desc.focus) + " m; expected more than 0");
 
     Camera camera{};
     camera.position = desc.position;
@@ -59,6 +63,8 @@ Camera makeCamera(const CameraDesc& desc) {
     camera.tan_half_fov_y =
         static_cast<float>(std::tan(0.5 * glm::radians(double{desc.fov_y_degrees})));
     camera.near = desc.near;
+    camera.lens_radius = 0.5f * desc.aperture;
+    camera.focus = desc.focus;
     return camera;
 }
 

@@ -66,18 +66,22 @@ HONE_RECORD_CONST uint kLightPoint = 0u;
 HONE_RECORD_CONST uint kLightRectangle = 1u;
 HONE_RECORD_CONST uint kLightDirectional = 2u;
 HONE_RECORD_CONST uint kLightSpot = 3u;
+HONE_RECORD_CONST uint kLightDisc = 4u;
+HONE_RECORD_CONST uint kLightSphere = 5u;
 
 struct Light {
     uint kind;
     vec3 position;  ///< centre; world space
-    vec3 direction; ///< unit, the way the light travels (rectangle: its emitting side's normal)
-    vec3 half_u;    ///< rectangle: half edges
+    vec3 direction; ///< unit, the way the light travels (rectangle, disc: emitting side's normal)
+    vec3 half_u;    ///< rectangle: half edges; disc: two perpendicular radii
     vec3 half_v;
-    vec3 intensity;  ///< point, spot: W/sr; rectangle: radiance; directional: irradiance
-                     ///< perpendicular to it
+    vec3 intensity;  ///< point, spot: W/sr; rectangle, disc, sphere: radiance; directional:
+                     ///< irradiance perpendicular to it
     float cos_inner; ///< spot cone
     float cos_outer;
-    float range; ///< metres where a point or spot light ends; 0 = never
+    float range;     ///< metres where a point or spot light ends; 0 = never
+    float radius;    ///< sphere: metres; directional: tangent of half the angle that it fills
+    uint shadowless; ///< 1: nothing blocks it
 };
 
 /// Where an environment probe sits and whose mirrors use it.
@@ -95,14 +99,16 @@ struct Environment {
     vec3 ambient; ///< radiance added as albedo * ambient, the same in raster and trace
 };
 
-/// A pinhole camera, ready for making rays. Right-handed, y up in the image plane.
+/// A camera, ready for making rays. Right-handed, y up in the image plane.
 struct Camera {
     vec3 position;
     vec3 forward; ///< unit
     vec3 right;   ///< unit
     vec3 up;      ///< unit
     float tan_half_fov_y;
-    float near; ///< metres; nothing nearer is seen
+    float near;        ///< metres; nothing nearer is seen
+    float lens_radius; ///< metres; 0 = a pinhole, everything is sharp
+    float focus;       ///< view depth in metres of the plane that a lens images sharply
 };
 
 /// A run of triangles that are culled and drawn together. Bounds in object space.
@@ -118,8 +124,8 @@ struct Cluster {
 
 #ifdef __cplusplus
 static_assert(sizeof(Mesh) == 20 && sizeof(Instance) == 96 && sizeof(Material) == 52 &&
-              sizeof(Texture) == 24 && sizeof(Light) == 76 && sizeof(Probe) == 16 &&
-              sizeof(Environment) == 48 && sizeof(Camera) == 56 && sizeof(Cluster) == 40);
+              sizeof(Texture) == 24 && sizeof(Light) == 84 && sizeof(Probe) == 16 &&
+              sizeof(Environment) == 48 && sizeof(Camera) == 64 && sizeof(Cluster) == 40);
 } // namespace hone
 #endif
 #undef HONE_RECORD_CONST

@@ -20,10 +20,12 @@ struct CameraDesc {
     vec3 up{0, 1, 0};
     float fov_y_degrees = 60;
     float near = 0.01f;
+    float aperture = 0; ///< diameter of a thin lens in metres; 0 = a pinhole
+    float focus = 1;    ///< view depth in metres that the lens images sharply
 };
 
-/// The camera's axes made orthonormal. Throws SceneError if position equals target or up is
-/// parallel to the view.
+/// The camera's axes made orthonormal. Throws SceneError if position equals target, up is parallel
+/// to the view, or a number is out of its range.
 [[nodiscard]] Camera makeCamera(const CameraDesc& desc);
 
 struct Bounds {

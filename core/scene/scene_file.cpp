@@ -191,6 +191,28 @@ template <class Check> void checkAt(const Object& object, Check check) {
     }
 }
 
+/// A thin lens by its diameter, or as photographers say it: focal length and f-number.
+void readLens(const Object& object, CameraDesc& camera) {
+    camera.focus = object.number("focus", 0.0f, kMost);
+    if (object.has("aperture") == object.has("f_number"))
+        object.fail("", "expected either \"aperture\", the lens's diameter in metres, or "
+                        "\"focal_length\" and \"f_number\"");
+    if (object.has("aperture")) {
+        if (object.has("focal_length"))
+            object.fail("/focal_length", "belongs to \"f_number\"; an aperture in metres says all");
+        camera.aperture = object.number("aperture", 0.0f, kMost);
+        return;
+    }
+    const float focal_length = object.number("focal_length", 0.0f, kMost);
+    const float f_number = object.number("f_number", 0.0f, kMost);
+    if (!(f_number > 0.0f))
+        object.fail("/f_number", "0; expected more");
+    if (!(focal_length < camera.focus))
+        object.fail("/focus", "a lens images nothing sharply that is not farther away than its "
+                              "focal length");
+    camera.aperture = focal_length / f_number;
+}
+
 CameraDesc readCamera(const Object& object) {
     CameraDesc camera;
     camera.name = printable(object.text("name"));
@@ -200,6 +222,10 @@ CameraDesc readCamera(const Object& object) {
         camera.up = object.vector("up");
     camera.fov_y_degrees = object.number("fov_y", 0.0f, 180.0f, camera.fov_y_degrees);
     camera.near = object.number("near", 0.0f, kMost, camera.near);
+    if (object.has("lens"))
+        readLens(Object(object.file(), object.pointer() + "/lens", object.require("lens"),
+                        {"aperture", "focal_length", "f_number", "focus"}),
+                 camera);
     checkAt(object, [&] { (void)makeCamera(camera); });
     return camera;
 }
@@ -227,52 +253,108 @@ Light readRectangle(const Object& object) {
     return light;
 }
 
+float readRadius(const Object& object) {
+    const float radius = object.number("radius", 0.0f, kMost);
+    if (!(radius > 0.0f))
+        object.fail("/radius", "0; expected more. A light without extent is of type \"point\"");
+    return radius;
+}
+
+Light readDisc(const Object& object) {
+    Light light{};
+    light.kind = kLightDisc;
+    light.position = object.vector("center");
+    light.direction = readDirection(object, "direction");
+    const float radius = readRadius(object);
+    // Any two radii that are perpendicular do: those along the axis that is farthest from the
+    // normal.
+    const vec3 normal = glm::abs(light.direction);
+    const vec3 axis = normal.x <= normal.y && normal.x <= normal.z ? vec3(1, 0, 0)
+                      : normal.y <= normal.z                       ? vec3(0, 1, 0)
+                                                                   : vec3(0, 0, 1);
+    light.half_u = radius * glm::normalize(glm::cross(light.direction, axis));
+    light.half_v = glm::cross(light.direction, light.half_u);
+    light.intensity = object.color("radiance", kMost);
+    return light;
+}
+
+Light readSphere(const Object& object) {
+    Light light{};
+    light.kind = kLightSphere;
+    light.position = object.vector("center");
+    light.direction = vec3(0, -1, 0);
+    light.radius = readRadius(object);
+    light.intensity = object.color("radiance", kMost);
+    return light;
+}
+
+Light readDirectional(const Object& object) {
+    Light light{};
+    light.kind = kLightDirectional;
+    light.direction = readDirection(object, "direction");
+    light.intensity = object.color("irradiance", kMost);
+    light.radius = std::tan(glm::radians(0.5f * object.number("angle", 0.0f, 90.0f, 0.0f)));
+    return light;
+}
+
+Light readPoint(const Object& object) {
+    Light light{};
+    light.kind = kLightPoint;
+    light.position = object.vector("position");
+    light.direction = vec3(0, -1, 0);
+    light.intensity = object.color("intensity", kMost);
+    light.range = object.number("range", 0.0f, kMost, 0.0f);
+    return light;
+}
+
+Light readSpot(const Object& object) {
+    Light light{};
+    light.kind = kLightSpot;
+    light.position = object.vector("position");
+    light.direction = readDirection(object, "direction");
+    light.intensity = object.color("intensity", kMost);
+    const float outer = object.number("outer", 0.0f, 90.0f, 45.0f);
+    const float inner = object.number("inner", 0.0f, outer, 0.0f);
+    light.cos_outer = std::cos(glm::radians(outer));
+    light.cos_inner = std::cos(glm::radians(inner));
+    light.range = object.number("range", 0.0f, kMost, 0.0f);
+    return light;
+}
+
 Light readLight(const std::string& file, const Json& json, const std::string& pointer) {
     // The type decides which keys there may be, so it is read first.
-    static const std::vector<std::string> kTypes{"point", "rectangle", "directional", "spot"};
+    struct Type {
+        const char* name;
+        std::vector<std::string> keys;
+        Light (*read)(const Object&);
+    };
+    static const std::vector<Type> kTypes{
+        {"point", {"position", "intensity", "range"}, readPoint},
+        {"spot", {"position", "direction", "intensity", "inner", "outer", "range"}, readSpot},
+        {"directional", {"direction", "irradiance", "angle"}, readDirectional},
+        {"rectangle", {"center", "edge_u", "edge_v", "radiance"}, readRectangle},
+        {"disc", {"center", "direction", "radius", "radiance"}, readDisc},
+        {"sphere", {"center", "radius", "radiance"}, readSphere}};
     if (!json.is_object() || !json.contains("type"))
         throw SceneError(file + " " + pointer + ": expected an object with a \"type\"");
     const Object untyped(file, pointer, Json::object(), {});
     if (!json["type"].is_string())
         untyped.fail("/type", "expected a string");
-    const std::string type = json["type"].get<std::string>();
-
-    Light light{};
-    if (type == "rectangle")
-        return readRectangle(
-            Object(file, pointer, json, {"type", "center", "edge_u", "edge_v", "radiance"}));
-    if (type == "directional") {
-        const Object object(file, pointer, json, {"type", "direction", "irradiance"});
-        light.kind = kLightDirectional;
-        light.direction = readDirection(object, "direction");
-        light.intensity = object.color("irradiance", kMost);
-        return light;
+    const std::string wanted = json["type"].get<std::string>();
+    const auto type =
+        std::ranges::find_if(kTypes, [&](const Type& each) { return each.name == wanted; });
+    if (type == kTypes.end()) {
+        std::vector<std::string> names;
+        for (const Type& each : kTypes)
+            names.emplace_back(each.name);
+        untyped.failName("/type", "unknown type of light", wanted, names);
     }
-    if (type == "point") {
-        const Object object(file, pointer, json, {"type", "position", "intensity", "range"});
-        light.kind = kLightPoint;
-        light.position = object.vector("position");
-        light.direction = vec3(0, -1, 0);
-        light.intensity = object.color("intensity", kMost);
-        light.range = object.number("range", 0.0f, kMost, 0.0f);
-        return light;
-    }
-    if (type == "spot") {
-        const Object object(
-            file, pointer, json,
-            {"type", "position", "direction", "intensity", "inner", "outer", "range"});
-        light.kind = kLightSpot;
-        light.position = object.vector("position");
-        light.direction = readDirection(object, "direction");
-        light.intensity = object.color("intensity", kMost);
-        const float outer = object.number("outer", 0.0f, 90.0f, 45.0f);
-        const float inner = object.number("inner", 0.0f, outer, 0.0f);
-        light.cos_outer = std::cos(glm::radians(outer));
-        light.cos_inner = std::cos(glm::radians(inner));
-        light.range = object.number("range", 0.0f, kMost, 0.0f);
-        return light;
-    }
-    untyped.failName("/type", "unknown type of light", type, kTypes);
+    std::vector<std::string> keys = type->keys;
+    keys.insert(keys.end(), {"type", "casts_shadow"});
+    const Object object(file, pointer, json, keys);
+    Light light = type->read(object);
+    light.shadowless = object.has("casts_shadow") && !object.boolean("casts_shadow") ? 1u : 0u;
+    return light;
 }
 
 Probe readProbe(const Object& object, const Scene& scene) {
@@ -361,8 +443,9 @@ bool readSceneFile(const std::string& name, Scene& scene) {
 
     std::vector<CameraDesc> cameras;
     root.each("cameras", [&](const Json& element, const std::string& pointer) {
-        cameras.push_back(readCamera(
-            Object(name, pointer, element, {"name", "position", "target", "up", "fov_y", "near"})));
+        cameras.push_back(
+            readCamera(Object(name, pointer, element,
+                              {"name", "position", "target", "up", "fov_y", "near", "lens"})));
     });
     scene.cameras.insert(scene.cameras.begin(), cameras.begin(), cameras.end());
     root.each("lights", [&](const Json& element, const std::string& pointer) {

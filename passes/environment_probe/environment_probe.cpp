@@ -71,7 +71,9 @@ public:
                                  .right = faces.cubeRight(face),
                                  .up = faces.cubeUp(face),
                                  .tan_half_fov_y = 1.0f,
-                                 .near = kNear * radius},
+                                 .near = kNear * radius,
+                                 .lens_radius = 0.0f,
+                                 .focus = 1.0f},
                                 {size, size},
                                 0.0f};
                 visibility_.drawHits(context, view, {.without = probe.object},

@@ -67,6 +67,12 @@ vec3 directLight(Light light, Surface surface, vec3 albedo) {
         float area = 4.0f * length(cross(light.half_u, light.half_v));
         irradiance *= area * max(emitted, 0.0f);
     }
+    if (light.kind == kLightDisc) {
+        float area = kPi * length(cross(light.half_u, light.half_v));
+        irradiance *= area * max(emitted, 0.0f);
+    }
+    if (light.kind == kLightSphere)
+        irradiance *= kPi * light.radius * light.radius;
     if (light.kind == kLightSpot) {
         float spot =
             clamp((emitted - light.cos_outer) / max(light.cos_inner - light.cos_outer, 1e-4f), 0.0f,

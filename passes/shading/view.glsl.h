@@ -18,7 +18,7 @@ struct View {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(View) == 68);
+static_assert(sizeof(View) == 76);
 } // namespace hone
 #endif
 #endif

@@ -101,12 +101,11 @@ void kernel(uint index) {
     for (uint i = 0u; i < params.light_count; ++i) {
         Light light = scene_lights[i];
         vec3 radiance = path.throughput * directLight(light, surface, albedo);
-        bool arrives = radiance.x + radiance.y + radiance.z > 0.0f;
+        bool asks = radiance.x + radiance.y + radiance.z > 0.0f && light.shadowless == 0u;
         uint slot = i * params.path_count + index;
         light_radiance[slot] = radiance;
-        shadow_rays[slot] =
-            arrives ? shadowRay(light, origin, lightPoint(light, i, path)) : noRay();
-        flags += arrives ? 1u : 0u;
+        shadow_rays[slot] = asks ? shadowRay(light, origin, lightPoint(light, i, path)) : noRay();
+        flags += asks ? 1u : 0u;
     }
 
     vec3 unit_direction = normalize(ray.direction);

@@ -55,6 +55,8 @@ void kernel(uint index) {
     uint found = 0u;
     uint light_count = uint(scene_lights.length());
     for (uint i = 0u; i < light_count && found < 2u; ++i) {
+        if (scene_lights[i].shadowless == 1u)
+            continue;
         vec3 direct = directLight(scene_lights[i], surface, albedo);
         if (direct.x + direct.y + direct.z > 0.0f)
             found = isPenumbra(i, surface) ? 2u : 1u;

@@ -74,6 +74,56 @@ TEST_F(SceneFile, ReadsAllKindsOfLight) {
     EXPECT_EQ(scene.lights[3].intensity, vec3(10, 9, 8));
 }
 
+TEST_F(SceneFile, ReadsLightsWithAnExtentAndLightsWithoutShadows) {
+    const Scene scene = load(R"({"lights": [
+        {"type": "disc", "center": [0, 4, 0], "direction": [0, -3, 0], "radius": 2, "radiance": 5},
+        {"type": "sphere", "center": [1, 2, 3], "radius": 0.5, "radiance": [1, 2, 3]},
+        {"type": "directional", "direction": [0, -1, 0], "irradiance": 2, "angle": 90,
+         "casts_shadow": false},
+        {"type": "point", "position": [0, 1, 0], "intensity": 1, "casts_shadow": true}]})");
+    ASSERT_EQ(scene.lights.size(), 4u);
+    const Light& disc = scene.lights[0];
+    EXPECT_EQ(disc.kind, kLightDisc);
+    EXPECT_EQ(disc.direction, vec3(0, -1, 0));
+    EXPECT_NEAR(glm::length(disc.half_u), 2.0f, 1e-6f);
+    EXPECT_NEAR(glm::length(disc.half_v), 2.0f, 1e-6f);
+    EXPECT_NEAR(glm::dot(disc.half_u, disc.half_v), 0.0f, 1e-6f);
+    EXPECT_NEAR(glm::dot(glm::cross(disc.half_u, disc.half_v), disc.direction), 4.0f, 1e-5f);
+    EXPECT_EQ(scene.lights[1].kind, kLightSphere);
+    EXPECT_EQ(scene.lights[1].radius, 0.5f);
+    EXPECT_EQ(scene.lights[1].intensity, vec3(1, 2, 3));
+    EXPECT_NEAR(scene.lights[2].radius, 1.0f, 1e-6f); // tan 45 degrees
+    EXPECT_EQ(scene.lights[2].shadowless, 1u);
+    EXPECT_EQ(scene.lights[3].shadowless, 0u);
+}
+
+TEST_F(SceneFile, ReadsALensByItsApertureOrItsFNumber) {
+    const Scene scene = load(R"({"cameras": [
+        {"name": "pinhole", "position": [0, 0, 5], "target": [0, 0, 0]},
+        {"name": "wide", "position": [0, 0, 5], "target": [0, 0, 0],
+         "lens": {"aperture": 0.5, "focus": 6}},
+        {"name": "photo", "position": [0, 0, 5], "target": [0, 0, 0],
+         "lens": {"focal_length": 0.05, "f_number": 2, "focus": 3}}]})");
+    EXPECT_EQ(scene.camera("pinhole").aperture, 0.0f);
+    EXPECT_EQ(scene.camera("wide").aperture, 0.5f);
+    EXPECT_EQ(scene.camera("wide").focus, 6.0f);
+    EXPECT_NEAR(scene.camera("photo").aperture, 0.025f, 1e-7f);
+    EXPECT_EQ(makeCamera(scene.camera("wide")).lens_radius, 0.25f);
+}
+
+TEST_F(SceneFile, RefusesALensThatSaysTooMuchOrTooLittle) {
+    const auto lens = [&](const std::string& members) {
+        return R"({"cameras": [{"name": "a", "position": [0, 0, 5], "target": [0, 0, 0], "lens": {)" +
+               members + "}}]}";
+    };
+    expectError(lens(R"("focus": 3)"), "/cameras/0/lens: expected either \"aperture\"");
+    expectError(lens(R"("focus": 3, "aperture": 1, "f_number": 2)"), "expected either");
+    expectError(lens(R"("focus": 3, "aperture": 1, "focal_length": 2)"), "belongs to");
+    expectError(lens(R"("focus": 3, "f_number": 0, "focal_length": 2)"), "expected more");
+    expectError(lens(R"("focus": 0.04, "f_number": 2, "focal_length": 0.05)"), "focal length");
+    expectError(lens(R"("focus": 0, "aperture": 1)"), "expected more than 0");
+}
+
 TEST_F(SceneFile, ReadsTheEnvironmentAndThenAddsNoSun) {
     const Scene scene =
         load(R"({"environment": {"zenith": [0, 0, 1], "horizon": 0.5, "ambient": 0.25}})");
@@ -135,7 +185,7 @@ TEST_F(SceneFile, WrongTypesAndRangesAreNamedWithTheirPointer) {
     expectError(
         R"({"cameras": [{"name": "a", "position": [1,1,1], "target": [0,0,0], "fov_y": 200}]})",
         "/cameras/0/fov_y: 200; expected a number from 0.0 to 180.0");
-    expectError(R"({"lights": [{"type": "sphere"}]})", "/lights/0/type: unknown type of light");
+    expectError(R"({"lights": [{"type": "tube"}]})", "/lights/0/type: unknown type of light");
     expectError(R"({"lights": [{}]})", "/lights/0: expected an object with a \"type\"");
     expectError(R"({"lights": [{"type": "directional", "direction": [0,0,0], "irradiance": 1}]})",
                 "/lights/0/direction: a direction of no length");

@@ -29,7 +29,9 @@ Camera cameraAt(vec3 position, vec3 forward, vec3 up) {
             .right = glm::cross(forward, up),
             .up = up,
             .tan_half_fov_y = 1.0f,
-            .near = 0.01f};
+            .near = 0.01f,
+            .lens_radius = 0,
+            .focus = 1};
 }
 
 /// A square of side 2 * half around `center`, facing along the unit axis u x v.
