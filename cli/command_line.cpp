@@ -17,21 +17,32 @@ namespace hone::cli {
 namespace {
 
 /// Reads "800x600".
+uvec2 toSize(const std::string& option, const std::string& text) {
+    uvec2 size{0, 0};
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%ux%u%c", &size.x, &size.y, &rest) != 2 || size.x == 0 ||
+        size.y == 0 || size.x > 16384 || size.y > 16384)
+        throw CLI::ValidationError(
+            option, "expected WxH from 1x1 to 16384x16384, like 800x600; got \"" + text + "\"");
+    return size;
+}
+
 CLI::Option* addSize(CLI::App* app, const std::string& name, uvec2& size, const std::string& doc) {
     return app
         ->add_option_function<std::string>(
-            name,
-            [&size, name](const std::string& text) {
-                unsigned width = 0, height = 0;
-                char rest = 0;
-                if (std::sscanf(text.c_str(), "%ux%u%c", &width, &height, &rest) != 2 ||
-                    width == 0 || height == 0 || width > 16384 || height > 16384)
-                    throw CLI::ValidationError(
-                        name,
-                        "expected WxH from 1x1 to 16384x16384, like 800x600; got \"" + text + "\"");
-                size = {width, height};
-            },
-            doc)
+            name, [&size, name](const std::string& text) { size = toSize(name, text); }, doc)
+        ->type_name("WxH");
+}
+
+void addSizes(CLI::App* app, std::vector<uvec2>& sizes) {
+    app->add_option_function<std::vector<std::string>>(
+           "--sizes",
+           [&sizes](const std::vector<std::string>& texts) {
+               sizes.clear();
+               for (const std::string& text : texts)
+                   sizes.push_back(toSize("--sizes", text));
+           },
+           "image sizes (800x600 1024x768 1920x1080)")
         ->type_name("WxH");
 }
 
@@ -260,21 +271,31 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
                      "runs of each measurement; the median counts")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
-    std::vector<std::string> size_texts;
-    parts_app->add_option("--sizes", size_texts, "image sizes (800x600 1024x768 1920x1080)");
+    addSizes(parts_app, bench_arguments.sizes);
     parts_app->add_flag("--json", bench_arguments.json, "one JSON object on standard output");
-    parts_app->callback([&] {
-        if (!size_texts.empty())
-            bench_arguments.sizes.clear();
-        for (const std::string& text : size_texts) {
-            uvec2 size{0, 0};
-            if (std::sscanf(text.c_str(), "%ux%u", &size.x, &size.y) != 2 || size.x == 0 ||
-                size.y == 0)
-                throw CLI::ValidationError("--sizes", "expected WxH; got \"" + text + "\"");
-            bench_arguments.sizes.push_back(size);
-        }
-        command = [&] { return benchParts(bench_arguments, console); };
-    });
+    chosen(parts_app, [&] { return benchParts(bench_arguments, console); });
+
+    BenchTable1Arguments table1_arguments;
+    CLI::App* table1_app = bench_app->add_subcommand(
+        "table1", "the paper's Table 1: refinement against pure ray tracing, four views");
+    table1_app->add_option("--graph", table1_arguments.graph, "what refines")
+        ->capture_default_str();
+    table1_app->add_option("--scene", table1_arguments.scene,
+                           "scene (Sponza where it is there, else builtin:atrium)");
+    table1_app->add_option("--camera", table1_arguments.camera,
+                           "whose field of view and lens the views take (the scene's first)");
+    addSizes(table1_app, table1_arguments.sizes);
+    table1_app
+        ->add_option("--samples", table1_arguments.samples,
+                     "samples a pixel (1 16); 1 is the paper's protocol, with lights as points")
+        ->check(CLI::PositiveNumber);
+    table1_app
+        ->add_option("--repeats", table1_arguments.repeats,
+                     "runs of each measurement; the median counts")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    table1_app->add_flag("--json", table1_arguments.json, "one JSON object on standard output");
+    chosen(table1_app, [&] { return benchTable1(table1_arguments, console); });
 
     BenchTracersArguments tracers_arguments;
     CLI::App* tracers_app = bench_app->add_subcommand(
@@ -303,7 +324,7 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     for (SessionArguments* arguments : std::initializer_list<SessionArguments*>{
              &demo_arguments, &render_arguments, &check_arguments, &passes_arguments,
              &compare_arguments, &doctor_arguments, &replay_arguments, &selftest_arguments,
-             &bench_arguments, &tracers_arguments})
+             &bench_arguments, &table1_arguments, &tracers_arguments})
         arguments->plugins = plugins;
     if (verbose)
         logger().set_level(spdlog::level::info);

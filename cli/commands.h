@@ -119,6 +119,16 @@ struct BenchPartsArguments : SessionArguments {
     bool json = false;
 };
 
+struct BenchTable1Arguments : SessionArguments {
+    std::string graph = "sir"; ///< what refines
+    std::string scene;
+    std::string camera; ///< whose field of view and lens the chosen views take
+    std::vector<uvec2> sizes{{800, 600}, {1024, 768}, {1920, 1080}};
+    std::vector<uint> samples{1, 16}; ///< 1: as the paper did it, lights are points
+    int repeats = 5;
+    bool json = false;
+};
+
 struct BenchTracersArguments : SessionArguments {
     std::string scene;
     std::string camera;
@@ -137,6 +147,7 @@ int replay(const ReplayArguments& arguments, const Console& console);
 int selftest(const SelftestArguments& arguments, const ConformanceKit& kit, const Console& console);
 int demo(const DemoArguments& arguments, const Console& console);
 int benchParts(const BenchPartsArguments& arguments, const Console& console);
+int benchTable1(const BenchTable1Arguments& arguments, const Console& console);
 int benchTracers(const BenchTracersArguments& arguments, const Console& console);
 
 /// Reads the command line, runs the command, turns exceptions into one message and an exit code.
