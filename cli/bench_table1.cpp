@@ -48,11 +48,12 @@ public:
             console_.err << "choosing views of " << scene.name << "\n";
             const std::vector<ChosenView> views =
                 chooseViews(graph, session_, devices_, scene, like, kShares);
-            Executor refined(
-                loadGraph(
-                    graph, session_.catalog(),
-                    {{"batch", "0"}, {"scope", "flagged"}, {"samples", std::to_string(samples)}}),
-                session_.catalog(), devices_);
+            Executor refined(loadGraph(graph, session_.catalog(),
+                                       {{"batch", "0"},
+                                        {"scope", "flagged"},
+                                        {"visibility", arguments_.visibility},
+                                        {"samples", std::to_string(samples)}}),
+                             session_.catalog(), devices_);
             Executor traced(loadGraph(findGraph("prt"), session_.catalog(),
                                       {{"samples", std::to_string(samples)}}),
                             session_.catalog(), devices_);
@@ -74,10 +75,11 @@ private:
         executor.run();
     }
 
+    /// Of the refinement: those of a raster image by rays are raster's.
     static std::uint64_t raysOf(const Executor& executor) {
         std::uint64_t rays = 0;
         for (const Counter& counter : executor.counters().all())
-            if (counter.name.starts_with("rays."))
+            if (counter.name.starts_with("rays.") && counter.name != "rays.visibility")
                 rays += counter.value;
         return rays;
     }

@@ -290,6 +290,11 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
                      "samples a pixel (1 16); 1 is the paper's protocol, with lights as points")
         ->check(CLI::PositiveNumber);
     table1_app
+        ->add_option("--visibility", table1_arguments.visibility,
+                     "who says what each pixel of the raster image sees")
+        ->check(CLI::IsMember({"raster", "rays"}))
+        ->capture_default_str();
+    table1_app
         ->add_option("--repeats", table1_arguments.repeats,
                      "runs of each measurement; the median counts")
         ->check(CLI::PositiveNumber)

@@ -125,6 +125,7 @@ struct BenchTable1Arguments : SessionArguments {
     std::string camera; ///< whose field of view and lens the chosen views take
     std::vector<uvec2> sizes{{800, 600}, {1024, 768}, {1920, 1080}};
     std::vector<uint> samples{1, 16}; ///< 1: as the paper did it, lights are points
+    std::string visibility = "raster"; ///< who says what the raster image sees, or "rays"
     int repeats = 5;
     bool json = false;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/backends/brute/brute_backend.h"
+#include "hone/backends/host/host_device.h"
 #include "hone/core/device/kernel.glsl.h"
 #include "hone/core/error.h"
 #include "hone/passes/passes.h"
@@ -100,24 +101,49 @@ protected:
     static constexpr uint kPixels = kExtent.x * kExtent.y;
 };
 
+/// What a linear search finds along each pixel's ray.
+std::vector<Hit> searched(const Scene& scene, const Camera& camera, uvec2 extent) {
+    const auto host = makeHostDevice();
+    SceneBuffers buffers(*host, scene);
+    Arguments arguments;
+    arguments.bind(buffers.arguments());
+    Library library(arguments, nullptr);
+    std::vector<Ray> rays;
+    for (uint i = 0; i < extent.x * extent.y; ++i)
+        rays.push_back(library.cameraRay(camera, extent, library.pixelCenter(i, extent)));
+    std::vector<Hit> hits(rays.size());
+    const auto tracer = makeBruteBackend();
+    tracer->build(scene);
+    tracer->closest(rays, hits, Coherence::kCoherent, {});
+    return hits;
+}
+
+// Needs no Vulkan device; the extent is no multiple of a tile.
+TEST(RasterByRays, SeesExactlyWhatTheTracerAnswers) {
+    const Scene scene = tumble(1);
+    const Camera camera = cameraAt({1, 2, 6}, {0, 0, 0});
+    const uvec2 extent{101, 67};
+    TraceBackendRegistry tracers;
+    tracers.add("brute", "", [](const Devices&) { return makeBruteBackend(); });
+    PassRun run(rasterPass());
+    run.extent(extent).scene(scene).camera(camera).tracers(tracers);
+    run.param("visibility", "rays").param("backend", "brute").execute();
+    const std::vector<Hit> hits = run.output<Hit>("gbuffer");
+    const std::vector<Hit> expected = searched(scene, camera, extent);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        ASSERT_EQ(hits[i].instance, expected[i].instance) << i;
+        ASSERT_EQ(hits[i].primitive, expected[i].primitive) << i;
+    }
+    EXPECT_EQ(run.counter("rays.visibility"), hits.size());
+}
+
 TEST_F(Raster, SeesWhatRaysSee) {
     const Scene scene = tumble(1);
     const Camera camera = cameraAt({1, 2, 6}, {0, 0, 0});
     PassRun run(rasterPass(), device());
     run.kernelsOnHost().extent(kExtent).scene(scene).camera(camera).execute();
     const std::vector<Hit> hits = run.output<Hit>("gbuffer");
-
-    SceneBuffers buffers(device(), scene);
-    Arguments arguments;
-    arguments.bind(buffers.arguments());
-    Library library(arguments, nullptr);
-    std::vector<Ray> rays;
-    for (uint i = 0; i < kPixels; ++i)
-        rays.push_back(library.cameraRay(camera, kExtent, library.pixelCenter(i, kExtent)));
-    std::vector<Hit> traced(kPixels);
-    const auto tracer = makeBruteBackend();
-    tracer->build(scene);
-    tracer->closest(rays, traced, Coherence::kCoherent, {});
+    const std::vector<Hit> traced = searched(scene, camera, kExtent);
 
     uint different = 0;
     uint seen = 0;
