@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hone/cli/json.h"
-#include "hone/core/trace/check_backend.h"
+#include "hone/core/trace/check/check_backend.h"
 
 #include <string>
 

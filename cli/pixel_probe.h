@@ -3,7 +3,7 @@
 
 #include "hone/cli/session.h"
 
-#include "hone/core/trace/explain_difference.h"
+#include "hone/core/trace/check/explain_difference.h"
 
 #include <memory>
 #include <optional>

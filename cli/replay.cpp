@@ -10,8 +10,8 @@
 
 #include "hone/core/error.h"
 #include "hone/core/printable.h"
-#include "hone/core/trace/query_kind.h"
-#include "hone/core/trace/trace_recording.h"
+#include "hone/core/trace/check/query_kind.h"
+#include "hone/core/trace/record/trace_recording.h"
 
 #include <algorithm>
 #include <iomanip>

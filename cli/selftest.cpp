@@ -8,7 +8,7 @@
 
 #include "hone/core/error.h"
 #include "hone/core/graph/reporter.h"
-#include "hone/core/trace/backend_name.h"
+#include "hone/core/trace/choice/backend_name.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include "hone/core/device/device.h"
 #include "hone/core/graph/executor.h"
 #include "hone/core/plugin/plugin.h"
-#include "hone/core/trace/check_backend.h"
-#include "hone/core/trace/trace_recorder.h"
+#include "hone/core/trace/check/check_backend.h"
+#include "hone/core/trace/record/trace_recorder.h"
 
 #include <memory>
 #include <span>

@@ -2,7 +2,7 @@
 #include "hone/core/graph/parameters.h"
 
 #include "hone/core/graph/reporter.h"
-#include "hone/core/trace/backend_name.h"
+#include "hone/core/trace/choice/backend_name.h"
 
 #include <algorithm>
 #include <charconv>

@@ -6,7 +6,7 @@
 #include "hone/core/interrupt.h"
 #include "hone/core/pass/param.h"
 #include "hone/core/pass/value.h"
-#include "hone/core/trace/tracer_choice.h"
+#include "hone/core/trace/choice/tracer_choice.h"
 
 #include <span>
 #include <string>

@@ -2,8 +2,8 @@
 #include "hone/core/trace/trace_backend.h"
 
 #include "hone/core/error.h"
-#include "hone/core/trace/backend_name.h"
-#include "hone/core/trace/check_backend.h"
+#include "hone/core/trace/check/check_backend.h"
+#include "hone/core/trace/choice/backend_name.h"
 
 #include <algorithm>
 

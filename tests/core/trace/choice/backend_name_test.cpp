@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/core/trace/backend_name.h"
+#include "hone/core/trace/choice/backend_name.h"
 
 #include "hone/core/graph/diagnostics.h"
-#include "hone/core/trace/check_backend.h"
+#include "hone/core/trace/check/check_backend.h"
 #include "hone/core/trace/null_backend.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/core/trace/backend_name.h"
+#include "hone/core/trace/choice/backend_name.h"
 
 namespace hone {
 namespace {

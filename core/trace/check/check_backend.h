@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hone/core/trace/query_kind.h"
+#include "hone/core/trace/check/query_kind.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/core/trace/check_backend.h"
+#include "hone/core/trace/check/check_backend.h"
 
 #include "hone/backends/brute/brute_backend.h"
 #include "hone/core/error.h"

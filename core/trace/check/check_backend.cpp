@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/core/trace/check_backend.h"
+#include "hone/core/trace/check/check_backend.h"
 
 #include "hone/core/error.h"
 #include "hone/core/log.h"
 #include "hone/core/printable.h"
-#include "hone/core/trace/query_kind.h"
+#include "hone/core/trace/check/query_kind.h"
 
 #include <algorithm>
 #include <array>

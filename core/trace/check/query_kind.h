@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hone/core/trace/explain_difference.h"
+#include "hone/core/trace/check/explain_difference.h"
 #include "hone/core/trace/trace_backend.h"
 
 #include <charconv>

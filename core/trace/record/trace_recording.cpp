@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/core/trace/trace_recording.h"
+#include "hone/core/trace/record/trace_recording.h"
 
 #include "hone/core/error.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/core/trace/trace_recorder.h"
+#include "hone/core/trace/record/trace_recorder.h"
 
 #include "hone/core/error.h"
 #include "hone/core/log.h"

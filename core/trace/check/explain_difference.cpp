@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/core/trace/explain_difference.h"
+#include "hone/core/trace/check/explain_difference.h"
 
 #include "hone/core/printable.h"
 

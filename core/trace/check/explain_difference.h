@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hone/core/trace/crossing.h"
+#include "hone/core/trace/check/crossing.h"
 
 #include <cstdint>
 #include <string>

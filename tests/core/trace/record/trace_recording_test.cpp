@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/core/trace/trace_recording.h"
+#include "hone/core/trace/record/trace_recording.h"
 
 #include "hone/backends/brute/brute_backend.h"
 #include "hone/core/error.h"
-#include "hone/core/trace/trace_recorder.h"
+#include "hone/core/trace/record/trace_recorder.h"
 #include "hone/tests/support/scene_builder.h"
 #include "hone/tests/support/temporary_folder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/core/trace/query_kind.h"
+#include "hone/core/trace/check/query_kind.h"
 
 namespace hone {
 

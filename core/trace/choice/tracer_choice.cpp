@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/core/trace/tracer_choice.h"
+#include "hone/core/trace/choice/tracer_choice.h"
 
 #include "hone/core/error.h"
-#include "hone/core/trace/calibration.h"
+#include "hone/core/trace/choice/calibration.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/core/trace/crossing.h"
+#include "hone/core/trace/check/crossing.h"
 
 #include "hone/core/trace/traceable.h"
 

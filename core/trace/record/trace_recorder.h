@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hone/core/trace/trace_recording.h"
+#include "hone/core/trace/record/trace_recording.h"
 
 #include <fstream>
 #include <memory>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/core/trace/calibration.h"
+#include "hone/core/trace/choice/calibration.h"
 
 #include "hone/core/scene/builtin_shape.h"
 
