@@ -48,12 +48,8 @@ CompiledGraph makeBenchGraph(const Catalog& catalog) {
     outputs["display"] = "tonemap.display";
 
     std::vector<Diagnostic> diagnostics;
-    CompiledGraph compiled = compile(parseGraph("bench of " + path, graph.dump(2), diagnostics),
-                                     catalog, {}, diagnostics);
-    if (std::ranges::any_of(diagnostics,
-                            [](const Diagnostic& d) { return d.severity == Severity::kError; }))
-        throw GraphError(format(diagnostics));
-    return compiled;
+    const GraphDesc desc = parseGraph("bench of " + path, graph.dump(2), diagnostics);
+    return compileOrThrow(desc, catalog, {}, std::move(diagnostics));
 }
 
 Traffic trafficOf(const CompiledGraph& graph, std::string_view node_name, std::size_t pixels) {

@@ -47,7 +47,7 @@ public:
             const std::string graph = findGraph(arguments_.graph);
             console_.err << "choosing views of " << scene.name << "\n";
             const std::vector<ChosenView> views =
-                chooseViews(graph, session_, devices_, scene, like, kShares);
+                chooseViewsByShare(graph, session_, devices_, scene, like, kShares);
             Executor refined(loadGraph(graph, session_.catalog(),
                                        {{"batch", "0"},
                                         {"scope", "flagged"},

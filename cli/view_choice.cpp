@@ -57,11 +57,7 @@ CompiledGraph compileErrors(const std::string& path, const Catalog& catalog) {
     const Place place = desc.outputs_place;
     desc.outputs = {{{"order", place}, {"sort.order", place}},
                     {{"depth", place}, {"raster.depth", place}}};
-    CompiledGraph graph = compile(desc, catalog, {}, diagnostics);
-    if (std::ranges::any_of(diagnostics,
-                            [](const Diagnostic& d) { return d.severity == Severity::kError; }))
-        throw GraphError(format(diagnostics));
-    return graph;
+    return compileOrThrow(desc, catalog, {}, std::move(diagnostics));
 }
 
 bool seesEnough(std::span<const float> depth, float radius) {
@@ -103,9 +99,9 @@ std::vector<CameraDesc> candidateViews(const Scene& scene, const CameraDesc& lik
     return views;
 }
 
-std::vector<ChosenView> chooseViews(const std::string& graph_path, const Session& session,
-                                    const Devices& devices, const Scene& scene,
-                                    const CameraDesc& like, std::span<const double> shares) {
+std::vector<ChosenView> chooseViewsByShare(const std::string& graph_path, const Session& session,
+                                           const Devices& devices, const Scene& scene,
+                                           const CameraDesc& like, std::span<const double> shares) {
     Executor executor(compileErrors(graph_path, session.catalog()), session.catalog(), devices);
     executor.setScene(scene);
     executor.setExtent(kSmall);

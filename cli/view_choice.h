@@ -18,7 +18,7 @@ struct ChosenView {
 
 /// Places from which a person could look into the scene: half of them around the mirrors, near and
 /// far, half anywhere inside the scene's bounds and roughly level. The same places for the same
-/// scene. Not all of them see much: chooseViews() sorts those out.
+/// scene. Not all of them see much: chooseViewsByShare() sorts those out.
 [[nodiscard]] std::vector<CameraDesc> candidateViews(const Scene& scene, const CameraDesc& like,
                                                      std::size_t count);
 
@@ -26,9 +26,8 @@ struct ChosenView {
 /// The graph at `graph_path` must order with a pass "sort" of a pass "raster"; both run at
 /// a small size. `like` gives the field of view and the lens. Throws GraphError if the graph has no
 /// such passes, SceneError if no candidate sees anything.
-[[nodiscard]] std::vector<ChosenView> chooseViews(const std::string& graph_path,
-                                                  const Session& session, const Devices& devices,
-                                                  const Scene& scene, const CameraDesc& like,
-                                                  std::span<const double> shares);
+[[nodiscard]] std::vector<ChosenView>
+chooseViewsByShare(const std::string& graph_path, const Session& session, const Devices& devices,
+                   const Scene& scene, const CameraDesc& like, std::span<const double> shares);
 
 } // namespace hone::cli

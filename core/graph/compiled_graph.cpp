@@ -32,10 +32,8 @@ CompiledGraph compile(const GraphDesc& desc, const Catalog& catalog, const Overr
     return std::move(c.graph);
 }
 
-CompiledGraph loadGraph(const std::string& path, const Catalog& catalog,
-                        const Overrides& overrides) {
-    std::vector<Diagnostic> diagnostics;
-    const GraphDesc desc = parseGraphFile(path, diagnostics);
+CompiledGraph compileOrThrow(const GraphDesc& desc, const Catalog& catalog,
+                             const Overrides& overrides, std::vector<Diagnostic> diagnostics) {
     CompiledGraph graph = compile(desc, catalog, overrides, diagnostics);
     if (std::ranges::any_of(diagnostics,
                             [](const Diagnostic& d) { return d.severity == Severity::kError; }))
@@ -43,6 +41,13 @@ CompiledGraph loadGraph(const std::string& path, const Catalog& catalog,
     for (const Diagnostic& diagnostic : diagnostics)
         logger().warn("{}", format(diagnostic));
     return graph;
+}
+
+CompiledGraph loadGraph(const std::string& path, const Catalog& catalog,
+                        const Overrides& overrides) {
+    std::vector<Diagnostic> diagnostics;
+    const GraphDesc desc = parseGraphFile(path, diagnostics);
+    return compileOrThrow(desc, catalog, overrides, std::move(diagnostics));
 }
 
 const PlannedNode* CompiledGraph::findNode(std::string_view node_name) const {

@@ -170,8 +170,12 @@ struct CompiledGraph {
                                     const Overrides& overrides,
                                     std::vector<Diagnostic>& diagnostics);
 
-/// parseGraphFile and compile; throws GraphError with the whole report if anything is an error;
-/// warnings are logged.
+/// compile for a graph of which reading found `diagnostics`; throws GraphError with the whole
+/// report if anything is an error; warnings are logged.
+[[nodiscard]] CompiledGraph compileOrThrow(const GraphDesc& desc, const Catalog& catalog,
+                                           const Overrides& overrides,
+                                           std::vector<Diagnostic> diagnostics);
+/// parseGraphFile and compileOrThrow.
 [[nodiscard]] CompiledGraph loadGraph(const std::string& path, const Catalog& catalog,
                                       const Overrides& overrides);
 

@@ -107,7 +107,7 @@ TEST(ViewChoice, TakesTheViewWhoseShareIsNearest) {
     const Scene scene = loadScene("builtin:cornell");
     const double shares[] = {0.4, 0.05};
     const std::vector<ChosenView> views =
-        chooseViews(findGraph("sir"), session, devices, scene, scene.camera(""), shares);
+        chooseViewsByShare(findGraph("sir"), session, devices, scene, scene.camera(""), shares);
     ASSERT_EQ(views.size(), 2u);
     EXPECT_NE(views[0].camera.name, views[1].camera.name);
     EXPECT_GT(views[0].share, views[1].share);
