@@ -16,6 +16,27 @@ Ray cameraRay(Camera camera, uvec2 extent, vec2 position) {
     return ray;
 }
 
+/// The ray that leaves a thin lens at `lens`, a point of the unit disc, for the point in the plane
+/// of focus that cameraRay() sees through `position`. t is view depth here, too.
+Ray lensRay(Camera camera, uvec2 extent, vec2 position, vec2 lens) {
+    Ray ray = cameraRay(camera, extent, position);
+    vec3 offset = camera.lens_radius * (lens.x * camera.right + lens.y * camera.up);
+    ray.origin += offset;
+    ray.direction = ray.direction - (1.0f / camera.focus) * offset;
+    return ray;
+}
+
+/// The diameter in pixels of the disc that a point at view depth `depth` is blurred to, negative in
+/// front of the plane of focus: aperture * focal length in pixels * (1 / focus - 1 / depth). A
+/// depth of 0 is that of a pixel that sees nothing: infinitely far. Source: Potmesil and
+/// Chakravarty, A Lens and Aperture Camera Model for Synthetic Image Generation, 1981; their lens's
+/// focal length cancels out, for the sensor lies where it images the plane of focus.
+float circleOfConfusion(Camera camera, uvec2 extent, float depth) {
+    float focal_length = float(extent.y) / (2.0f * camera.tan_half_fov_y);
+    float inverse_depth = depth > 0.0f ? 1.0f / depth : 0.0f;
+    return 2.0f * camera.lens_radius * focal_length * (1.0f / camera.focus - inverse_depth);
+}
+
 vec2 pixelCenter(uint pixel, uvec2 extent) {
     return vec2(float(pixel % extent.x) + 0.5f, float(pixel / extent.x) + 0.5f);
 }

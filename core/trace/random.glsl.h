@@ -23,3 +23,31 @@ uvec4 pcg4d(uvec4 v) {
 float unitFloat(uint bits) {
     return float(bits >> 8u) * (1.0f / 16777216.0f);
 }
+
+/// Point `index` of a two-dimensional (0,2)-sequence, the first two dimensions of Sobol's, with
+/// digits flipped by `scramble`: any 2^k points that begin at a multiple of 2^k are stratified in
+/// all ways that 2^k cells allow. (Kollig and Keller, Efficient Multidimensional Sampling, 2002.)
+uvec2 scrambledSobol(uint index, uvec2 scramble) {
+    uvec2 bits = scramble;
+    uint second = 0x80000000u;
+    for (uint first = 0x80000000u; index != 0u; first = first >> 1u) {
+        if ((index & 1u) != 0u)
+            bits = bits ^ uvec2(first, second);
+        second = second ^ (second >> 1u);
+        index = index >> 1u;
+    }
+    return bits;
+}
+
+/// A point of the unit square to one of the unit disc: areas keep their ratios and neighbours stay
+/// neighbours. (Shirley and Chiu, A Low Distortion Map between Disk and Square, 1997.)
+vec2 concentricDisc(vec2 square) {
+    float x = 2.0f * square.x - 1.0f;
+    float y = 2.0f * square.y - 1.0f;
+    if (x == 0.0f && y == 0.0f)
+        return vec2(0.0f, 0.0f);
+    bool is_wide = abs(x) > abs(y);
+    float radius = is_wide ? x : y;
+    float angle = is_wide ? 0.785398163f * (y / x) : 1.570796327f - 0.785398163f * (x / y);
+    return radius * vec2(cos(angle), sin(angle));
+}

@@ -6,7 +6,7 @@
 struct Path {
     vec3 throughput; ///< what it weighs in its sample
     float traveled;  ///< metres so far; for the primary ray view depth, which its pixel's cone has
-    uint ray;        ///< whose hit it sees; samples of one request share the primary ray
+    uint ray;        ///< whose hit it sees; samples of one request share a pinhole's primary ray
     uint slot;       ///< where its sample is in the list
     uint pixel;
     uint sample_number; ///< of its pixel

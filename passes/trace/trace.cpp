@@ -2,11 +2,12 @@
 //
 // trace: answers requests with ray-traced radiance samples.
 //
-// A pixel's samples go through its centre: they share the primary ray, and so its hit, and differ
-// in the points of area lights that their shadow rays go to. A hit is shaded with the functions
-// that raster uses, in the same order of sums (shading.glsl.h), each light times whether its shadow
-// ray arrives; mirrors are followed. Sample s of pixel p depends on the scene, the camera, the
-// seed, p and s only.
+// A pixel's samples go through its centre. A pinhole's share the primary ray, and so its hit, and
+// differ in the points of area lights that their shadow rays go to; a thin lens's start at points
+// of the lens and meet where the ray through its centre crosses the plane of focus. A hit is shaded
+// with the functions that raster uses, in the same order of sums (shading.glsl.h), each light times
+// whether its shadow ray arrives; mirrors are followed. Sample s of pixel p depends on the scene,
+// the camera, the seed, p and s only.
 //
 // in   requests  RequestList
 // in   scene     Scene
@@ -26,8 +27,9 @@
 //                "camera": "$camera" }, "params": { "backend": "$backend", "samples": "$samples" }
 //                }
 //
-// Source: Whitted, An Improved Illumination Model for Shaded Display, 1980; Amann, Chajdas,
-// Westermann 2012, section 4 (shadow and reflection rays, depth 3).
+// Source: Whitted, An Improved Illumination Model for Shaded Display, 1980; Cook, Porter,
+// Carpenter, Distributed Ray Tracing, 1984 (the lens); Amann, Chajdas, Westermann 2012, section 4
+// (shadow and reflection rays, depth 3).
 #include "hone/core/error.h"
 #include "hone/core/trace/trace_slices.h"
 #include "hone/passes/passes.h"
@@ -201,7 +203,9 @@ private:
         const Start::Params params{.camera = context.camera(),
                                    .extent = context.extent,
                                    .first_request = static_cast<uint>(wave.first_request),
-                                   .first_slot = static_cast<uint>(wave.first_slot)};
+                                   .first_slot = static_cast<uint>(wave.first_slot),
+                                   .seed_low = static_cast<uint>(context.seed),
+                                   .seed_high = static_cast<uint>(context.seed >> 32)};
         const std::array arguments{first_paths_.argument(), rays_.argument(), paths_.argument()};
         context.dispatch(kStart, params, static_cast<uint>(wave.requests), arguments);
         context.chosen->finish();
@@ -224,11 +228,12 @@ private:
         throw Interrupted{};
     }
 
-    /// What primary rays (one a request) and reflected ones (one a path) hit; one bounce past the
-    /// last sees the environment only.
+    /// What primary rays (a pinhole's: one a request) and reflected ones (one a path) hit; one
+    /// bounce past the last sees the environment only.
     void findHits(PassContext& context, const TraceBackend& backend) {
         const bool is_primary = at_.bounce == 0;
-        const std::size_t rays = is_primary ? at_.wave.requests : at_.paths;
+        const bool is_shared = is_primary && context.camera().lens_radius == 0.0f;
+        const std::size_t rays = is_shared ? at_.wave.requests : at_.paths;
         const std::span<Hit> hits = hits_.as<Hit>().first(rays);
         if (at_.bounce > max_depth_) {
             std::ranges::fill(hits, Hit{kNone, kNone});

@@ -111,6 +111,25 @@ TEST_P(Refinement, EndsAtTheTracedImageWithSeveralSamples) {
     EXPECT_TRUE(areSameBits(colorOf(*sir), colorOf(*prt)));
 }
 
+// Each sample has its own primary ray then.
+TEST_P(Refinement, EndsAtTheTracedImageThroughALens) {
+    const std::unique_ptr<Executor> prt = load("prt"), sir = load("sir");
+    const std::vector<vec3> sharp = colorOf(*prt);
+    camera_.lens_radius = 0.1f;
+    for (Executor* executor : {prt.get(), sir.get()}) {
+        executor->setCamera(camera_);
+        executor->setParameter("samples", "5");
+    }
+    const std::vector<vec3> traced = colorOf(*prt);
+    if (GetParam() == "cornell" || GetParam() == "mirror_sphere") {
+        EXPECT_FALSE(areSameBits(traced, sharp)) << "nothing is blurred";
+    }
+    for (const char* batch : {"0", "100"}) {
+        sir->setParameter("batch", batch);
+        EXPECT_TRUE(areSameBits(colorOf(*sir), traced)) << "batch " << batch;
+    }
+}
+
 TEST_P(Refinement, TracesTheSameImageInBatchesOfAnySize) {
     const std::unique_ptr<Executor> prt = load("prt");
     const std::vector<vec3> at_once = colorOf(*prt);

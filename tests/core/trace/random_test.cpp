@@ -3,49 +3,64 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <set>
+#include <utility>
 
 namespace hone {
 namespace {
 
-struct Random : HostKernel {
-    Random() : HostKernel(none, nullptr) {}
-    Arguments none;
+struct Library : HostKernel {
+    Library() : HostKernel(Arguments{}, nullptr) {}
 #include "hone/core/trace/random.glsl.h"
 };
 
-TEST(Random, DiffersWithEveryWordOfTheIndex) {
-    Random random;
-    std::set<uint> words;
-    for (uint word = 0; word < 4; ++word)
-        for (uint value = 1; value <= 1000; ++value) {
-            uvec4 index(0);
-            index[static_cast<int>(word)] = value;
-            words.insert(random.pcg4d(index).x);
-        }
-    EXPECT_EQ(words.size(), 4000);
-}
-
-TEST(Random, FillsTheUnitIntervalEvenly) {
-    Random random;
-    std::array<uint, 16> counts{};
-    constexpr uint kDraws = 16'000;
-    for (uint i = 0; i < kDraws; ++i) {
-        const float x = random.unitFloat(random.pcg4d(uvec4(i, 0, 0, 0)).y);
-        ASSERT_GE(x, 0.0f);
-        ASSERT_LT(x, 1.0f);
-        ++counts[static_cast<std::size_t>(x * 16.0f)];
+TEST(ScrambledSobol, BeginsAsTheSequenceDoes) {
+    Library library;
+    // (0, 0), (1/2, 1/2), (1/4, 3/4), (3/4, 1/4), (1/8, 5/8): digits mirrored at the point, and
+    // those times Pascal's matrix modulo 2.
+    const float expected[][2] = {
+        {0, 0}, {0.5f, 0.5f}, {0.25f, 0.75f}, {0.75f, 0.25f}, {0.125f, 0.625f}};
+    for (uint i = 0; i < 5; ++i) {
+        const uvec2 bits = library.scrambledSobol(i, uvec2(0));
+        EXPECT_EQ(library.unitFloat(bits.x), expected[i][0]) << i;
+        EXPECT_EQ(library.unitFloat(bits.y), expected[i][1]) << i;
     }
-    // A binomial count of mean 1000 has a deviation of 31; five of them are next to impossible.
-    for (uint count : counts)
-        EXPECT_NEAR(count, 1000, 155);
 }
 
-TEST(Random, MakesUnitFloatsBelowOne) {
-    Random random;
-    EXPECT_EQ(random.unitFloat(0u), 0.0f);
-    EXPECT_LT(random.unitFloat(0xffffffffu), 1.0f);
+TEST(ScrambledSobol, StratifiesEveryPowerOfTwoWhateverTheScramble) {
+    Library library;
+    for (const uvec2 scramble : {uvec2(0), uvec2(0xdeadbeef, 0x12345678)})
+        for (uint first : {0u, 16u, 48u})
+            for (const uint columns : {1u, 2u, 4u, 8u, 16u}) {
+                std::set<std::pair<uint, uint>> cells;
+                for (uint i = first; i < first + 16; ++i) {
+                    const uvec2 bits = library.scrambledSobol(i, scramble);
+                    const auto columns_f = static_cast<float>(columns);
+                    cells.emplace(library.unitFloat(bits.x) * columns_f,
+                                  library.unitFloat(bits.y) * (16 / columns_f));
+                }
+                EXPECT_EQ(cells.size(), 16u) << columns << " columns from " << first;
+            }
+}
+
+TEST(ConcentricDisc, KeepsTheShareOfAreas) {
+    // The squares of side s around the middle become discs of radius s.
+    Library library;
+    constexpr int kSteps = 64;
+    for (int row = 0; row < kSteps; ++row)
+        for (int column = 0; column < kSteps; ++column) {
+            const vec2 square((static_cast<float>(column) + 0.5f) / kSteps,
+                              (static_cast<float>(row) + 0.5f) / kSteps);
+            const vec2 centred = 2.0f * square - 1.0f;
+            EXPECT_NEAR(glm::length(library.concentricDisc(square)),
+                        glm::max(glm::abs(centred.x), glm::abs(centred.y)), 1e-6f);
+        }
+    // Four sides to four quarters, and the middle stays.
+    EXPECT_LT(glm::distance(library.concentricDisc({1, 0.5f}), vec2(1, 0)), 1e-6f);
+    EXPECT_LT(glm::distance(library.concentricDisc({0.5f, 1}), vec2(0, 1)), 1e-6f);
+    EXPECT_LT(glm::distance(library.concentricDisc({0, 0.5f}), vec2(-1, 0)), 1e-6f);
+    EXPECT_LT(glm::distance(library.concentricDisc({0.5f, 0}), vec2(0, -1)), 1e-6f);
+    EXPECT_EQ(library.concentricDisc({0.5f, 0.5f}), vec2(0, 0));
 }
 
 } // namespace
