@@ -7,6 +7,7 @@ void registerPasses(PassRegistry& registry) {
     registry.add(accumulatePass());
     registry.add(blendPass());
     registry.add(combinePass());
+    registry.add(depthOfFieldPass());
     registry.add(differencePass());
     registry.add(environmentProbePass());
     registry.add(rasterPass());

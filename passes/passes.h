@@ -9,6 +9,7 @@ namespace hone {
 [[nodiscard]] PassType accumulatePass();
 [[nodiscard]] PassType blendPass();
 [[nodiscard]] PassType combinePass();
+[[nodiscard]] PassType depthOfFieldPass();
 [[nodiscard]] PassType differencePass();
 [[nodiscard]] PassType environmentProbePass();
 [[nodiscard]] PassType rasterPass();
