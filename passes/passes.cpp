@@ -9,6 +9,7 @@ void registerPasses(PassRegistry& registry) {
     registry.add(combinePass());
     registry.add(depthOfFieldPass());
     registry.add(differencePass());
+    registry.add(dofErrorPass());
     registry.add(environmentProbePass());
     registry.add(rasterPass());
     registry.add(reflectionErrorPass());

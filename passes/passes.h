@@ -11,6 +11,7 @@ namespace hone {
 [[nodiscard]] PassType combinePass();
 [[nodiscard]] PassType depthOfFieldPass();
 [[nodiscard]] PassType differencePass();
+[[nodiscard]] PassType dofErrorPass();
 [[nodiscard]] PassType environmentProbePass();
 [[nodiscard]] PassType rasterPass();
 [[nodiscard]] PassType reflectionErrorPass();
