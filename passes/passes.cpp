@@ -11,6 +11,7 @@ void registerPasses(PassRegistry& registry) {
     registry.add(differencePass());
     registry.add(dofErrorPass());
     registry.add(environmentProbePass());
+    registry.add(propagateErrorPass());
     registry.add(rasterPass());
     registry.add(reflectionErrorPass());
     registry.add(requestPass());

@@ -13,6 +13,7 @@ namespace hone {
 [[nodiscard]] PassType differencePass();
 [[nodiscard]] PassType dofErrorPass();
 [[nodiscard]] PassType environmentProbePass();
+[[nodiscard]] PassType propagateErrorPass();
 [[nodiscard]] PassType rasterPass();
 [[nodiscard]] PassType reflectionErrorPass();
 [[nodiscard]] PassType requestPass();
