@@ -3,18 +3,27 @@
 // error.dof: where an image that was blurred afterwards differs from one seen through a lens.
 //
 // A lens sees around edges. Wherever depth jumps, the blurred image had to make up what the pinhole
-// did not see, as far away as a surface there is blurred: every pixel at a jump of depth is grown
-// by the radius of its circle of confusion, and what is covered has error 1. The image's border is
-// such a jump, too, for what lies beyond it spreads in. expect = bound = E. Elsewhere one surface
-// fills the circle, and its blur is known.
+// did not see: every pixel at a jump is grown by the radius of its circle of confusion. The image's
+// border is such a jump, too, for what lies beyond it spreads in. Elsewhere one surface fills the
+// circle, and its blur is known, but for what the pixels' centres miss of it.
+//
+//     expect mask    1 where a jump reaches
+//            layers  an estimate everywhere. depth_of_field sees three layers (in front of the
+//                    pixel's surface, that surface, behind it). What the pinhole did not see of
+//                    one counts as much as it covers, by the deviation of what was seen of it;
+//                    edges and textures count by how little the blur averages over pixels' centres
+//
+// A mask finds, but gives no order; layers do both. bound: 1, or expect where that is greater,
+// where a jump reaches or layers expect more than `least`; else 0.
 //
 // in   depth   Depth
 //      camera  Camera: its lens and focus; a pinhole's error is 0
-// out  error   Error, 0 or 1
-// params  detector  coc_jump: blur of neighbours differs by more than `jump` pixels, and so does
-// the
-//                   difference from the neighbour before (slanted planes are no jumps); sobel_z:
-//                   the source's Sobel filter of depth, with `slope`
+//      image   Radiance (optional): what depth_of_field blurs; layers look at it
+// out  error   Error
+// params  expect    mask, layers
+//         detector  coc_jump: blur of neighbours differs by more than `jump` pixels, and not only
+//                   as it does beside them (slanted planes are no jumps); sobel_z: the source's
+//                   Sobel filter of depth, with `slope`
 //         scope     coc_jump only. blur: jumps that change blur; all: also jumps of depth by more
 //                   than `slope` where both sides are equally blurred
 //         radius    c is the diameter of the circle of confusion of the pixel, c_max the greater of
@@ -25,18 +34,25 @@
 //         border    the outermost pixels count as jumps with the greatest radius of all (true)
 //         jump      pixels of blur (0.5)
 //         slope     of depth, as a part of it (0.02)
-//         radius_limit  pixels; longer ones are cut, and the mask then misses errors (64)
+//         radius_limit  that of depth_of_field: pixels; errors farther away are missed (64)
+//         space     layers: what errors are measured in. display: sRGB, linear: radiance
+//         least     layers: less is no error where no jump reaches (1/512)
+//         taps      layers: that of depth_of_field
 // counters  error.dof.limited  jumps whose radius the limit cut
 //
-//     "dof": { "type": "error.dof", "in": { "depth": "raster.depth", "camera": "$camera" } }
+//     "dof": { "type": "error.dof", "in": { "depth": "raster.depth", "camera": "$camera",
+//              "image": "raster.color" }, "params": { "expect": "layers" } }
 //
-// Source: Amann, Chajdas, Westermann 2012, section 3.2: depth discontinuities by a Sobel filter,
-// each grown by the greatest circle of confusion behind it. coc_jump, the border, tight radii and
-// discs are hone's own.
+// Source: Amann, Chajdas, Westermann 2012, section 3.2: discontinuities of depth by a Sobel filter,
+// each grown by the greatest circle of confusion behind it. coc_jump, the border, tight radii,
+// discs and layers are hone's own.
+#include "hone/core/error.h"
 #include "hone/core/log.h"
 #include "hone/passes/error/dof/dilate.h"
 #include "hone/passes/passes.h"
 #include "hone/passes/shading/lens_blur.h"
+
+#include "hone_spirv/dof_layers.h"
 
 #include "hone/core/device/kernel.glsl.h"
 
@@ -50,6 +66,12 @@
 namespace hone {
 namespace {
 
+struct DofLayers : HostKernel {
+    using HostKernel::HostKernel;
+#include "hone/passes/error/dof/dof_layers.glsl.h"
+};
+constexpr Kernel kDofLayers = makeKernel<DofLayers>("dof_layers", spirv::dof_layers);
+
 struct Library : HostKernel {
     Library() : HostKernel(Arguments{}, nullptr) {}
 #include "hone/core/scene/camera.glsl.h"
@@ -60,6 +82,7 @@ enum Detector : uint { kCocJump, kSobelZ };
 enum Scope : uint { kBlur, kAll };
 enum Radius : uint { kPaper, kPaperDiameter, kTight, kOwn };
 enum DilationShape : uint { kDisc, kSquare };
+enum Expect : uint { kMask, kLayers };
 
 /// Values by pixel, asked for by column and row; outside they are those of the nearest inside.
 struct Plane {
@@ -136,12 +159,39 @@ public:
             dilation_.squares(extent_, radii_, grown_);
         else
             dilation_.discs(extent_, radii_, grown_);
-        forEachPixel(extent_, [&](int, int, std::size_t i) {
-            error[i] = vec2(static_cast<float>(grown_[i]));
-        });
+        if (context.params->choice("expect") == kLayers)
+            estimate(context);
+        else
+            forEachPixel(extent_, [&](int, int, std::size_t i) {
+                error[i] = vec2(static_cast<float>(grown_[i]));
+            });
     }
 
 private:
+    /// Gives flagged pixels the error that their surroundings let expect.
+    void estimate(PassContext& context) {
+        if (!context.has("image"))
+            throw GraphError(std::string(context.pass_name) +
+                             ": \"expect\": \"layers\" looks at \"image\", which nothing is "
+                             "connected to; connect what depth_of_field blurs");
+        if (flagged_.bytes() < grown_.size() * sizeof(uint))
+            flagged_ = context.memory->createBuffer(grown_.size() * sizeof(uint), "flagged");
+        std::ranges::copy(grown_, flagged_.as<uint>().begin());
+        constexpr uint kEstimateTaps = 121; // an estimate needs fewer than an image
+        const uint taps = context.param<uint>("taps");
+        const DofLayers::Params params{.extent = extent_,
+                                       .taps = taps,
+                                       .estimate_taps = taps == 0 ? kEstimateTaps
+                                                                  : std::min(taps, kEstimateTaps),
+                                       .radius_limit = context.param<float>("radius_limit"),
+                                       .space = context.params->choice("space"),
+                                       .least = context.param<float>("least")};
+        blur_.prepare(context, params.radius_limit);
+        const auto [confusion, reach] = blur_.arguments();
+        const Argument extra[] = {confusion, reach, {"flagged", flagged_.view()}};
+        context.dispatch(kDofLayers, params, extent_.x * extent_.y, extra);
+    }
+
     /// Signed diameters, and inverse depths: linear across the image of a plane, as those are.
     void findConfusion(const PassContext& context) {
         const std::span<const float> depth = context.in("depth").as<float>();
@@ -245,6 +295,8 @@ private:
     std::vector<int> radii_;
     std::vector<std::uint8_t> grown_;
     Dilation dilation_;
+    LensBlur blur_;
+    Buffer flagged_;
     bool has_warned_ = false;
 };
 
@@ -254,7 +306,10 @@ PassType dofErrorPass() {
     return PassType("error.dof", "Where blurring afterwards differs from looking through a lens")
         .in("depth", types::kDepth, "of the image that is blurred")
         .in("camera", types::kCamera, "its lens and focus")
-        .out("error", types::kError, "1 where a lens may see around an edge, else 0")
+        .inOptional("image", types::kRadiance, "that is blurred; for layers")
+        .out("error", types::kError, "not 0 where a lens may see around an edge")
+        .param("expect", {"mask", "layers"},
+               "1 wherever an error may be, or what the pixels around let expect")
         .param("detector", {"coc_jump", "sobel_z"}, "what a jump of depth is: of blur or of depth")
         .param("scope", {"blur", "all"},
                "of coc_jump; all: jumps between equally blurred surfaces, too")
@@ -266,6 +321,10 @@ PassType dofErrorPass() {
         .param("slope", 0.02f, {.min = 0, .max = 10}, "part of depth that is a jump")
         .param("radius_limit", kBlurRadiusLimit, {.min = 0.5, .max = 512},
                "pixels that an error reaches at most")
+        .param("space", {"display", "linear"}, "of layers: what the error is measured in")
+        .param("least", 1.0f / 512, {.min = 0, .max = {}},
+               "of layers: what is less is no error outside the mask")
+        .param("taps", kBlurTaps, {.min = 0, .max = 1u << 20}, "of layers: that of depth_of_field")
         .implementedBy<DofError>(Domain::kHost);
 }
 

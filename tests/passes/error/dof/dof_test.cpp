@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hone/core/measure/ranking.h"
 #include "hone/passes/passes.h"
 #include "hone/tests/support/lens_scenes.h"
 #include "hone/tests/support/run_pass.h"
@@ -172,34 +173,157 @@ TEST(DofError, IsFiniteForDepthsThatAreNot) {
     }
 }
 
+/// A pass that estimates, of `color` of (x, y).
+template <class Color> void estimate(PassRun& run, Color color) {
+    std::vector<vec3> image(kPixels);
+    for (uint i = 0; i < kPixels; ++i)
+        image[i] =
+            vec3(color(static_cast<float>(i % 64) - 31.5f, static_cast<float>(i / 64) - 31.5f));
+    run.param("expect", "layers").param("space", "linear").param("taps", 0u);
+    run.plane("image", image);
+}
+
+/// 0 or 1.
+float speckle(float x, float y) {
+    const float v = std::sin(12.9898f * x + 78.233f * y) * 43758.5f;
+    return v - std::floor(v) < 0.5f ? 0.0f : 1.0f;
+}
+
+TEST(DofLayers, ExpectNoErrorOfOneColourButBoundNone) {
+    DofRun run(edge());
+    estimate(run, [](float, float) { return 0.5f; });
+    const std::vector<vec2> error = errorOf(run);
+    for (uint i = 0; i < kPixels; ++i) {
+        EXPECT_NEAR(error[i].x, 0.0f, 1e-3f); // rounding of squares
+        EXPECT_EQ(error[i].y, std::abs(static_cast<float>(i % 64) - 31.5f) < 9 ? 1.0f : 0.0f);
+    }
+}
+
+TEST(DofLayers, ExpectNothingOfWhatIsInFocus) {
+    DofRun run(paint([](float, float) { return 4.0f; }));
+    estimate(run, speckle);
+    for (const vec2& error : errorOf(run))
+        EXPECT_EQ(error, vec2(0));
+}
+
+TEST(DofLayers, GrowAsContrastDoes) {
+    std::vector<vec2> once, twice;
+    for (const float contrast : {1.0f, 2.0f}) {
+        DofRun run(edge());
+        estimate(run, [&](float x, float y) { return contrast * speckle(x, y); });
+        (contrast == 1 ? once : twice) = errorOf(run.param("least", 0.0f));
+    }
+    for (uint i = 0; i < kPixels; ++i)
+        EXPECT_NEAR(twice[i].x, 2 * once[i].x, 1e-5f) << i;
+}
+
+TEST(DofLayers, ExpectOfHiddenGroundWhatItVariesBesideIt) {
+    // A sharp plane hides part of what is blurred over discs of radius 8 behind it: of a pixel at
+    // distance x from the edge the share of a disc beyond x / 8. Speckles vary by 1/2.
+    const std::vector<float> depth = paint([](float x, float) { return x < 0 ? 4.0f : 0.0f; });
+    DofRun run(depth);
+    estimate(run, speckle);
+    const std::vector<vec2> error = errorOf(run);
+    // Of the disc's about 201 pixels speckles' edges cross all; 2 * 0.3 * sqrt(16) / 201 * 1/2.
+    const float loss = 0.006f;
+    for (uint x = 33; x < 39; ++x) {
+        float mean = 0;
+        for (uint y = 20; y < 44; ++y)
+            mean += error[y * 64 + x].x / 24;
+        const float hidden = test::discBeyond((static_cast<float>(x) - 31.5f) / 8);
+        EXPECT_NEAR(mean, 0.5f * hidden + loss, 0.03f) << x;
+    }
+    for (uint i = 0; i < kPixels; ++i)
+        if (i % 64 < 32) {
+            EXPECT_EQ(error[i].x, 0.0f) << "in focus";
+        }
+}
+
+TEST(DofLayers, SayWhatTheyWantToLookAt) {
+    DofRun run(edge());
+    try {
+        run.param("expect", "layers").execute();
+        FAIL();
+    } catch (const GraphError& error) {
+        EXPECT_STREQ(error.what(),
+                     "error.dof: \"expect\": \"layers\" looks at \"image\", which nothing is "
+                     "connected to; connect what depth_of_field blurs");
+    }
+}
+
 class DofErrorVulkan : public VulkanTest {};
 
-// The promise of the mask: what it spares is right. The cards are of one colour each, so that all
+TEST_F(DofErrorVulkan, EstimatesAsTheHostDoes) {
+    const std::vector<float> depth = paint([](float x, float y) {
+        return x > 20 ? 0.0f : x * y > 100 ? 2.0f : 5 + 0.05f * x;
+    });
+    const auto estimated = [&](PassRun&& run) {
+        run.extent(kExtent).camera(kLens).plane("depth", depth);
+        estimate(run, speckle);
+        return errorOf(run.param("space", "display").param("taps", 441u));
+    };
+    const std::vector<vec2> host = estimated(PassRun(dofErrorPass()));
+    const std::vector<vec2> vulkan = estimated(PassRun(dofErrorPass(), device()));
+    for (uint i = 0; i < kPixels; ++i)
+        EXPECT_LT(glm::distance(host[i], vulkan[i]), 2e-3f) << i;
+}
+
+/// How wrong the blurred image of posts() is, and what passes say of it.
+struct Judged {
+    std::vector<float> error, squared;
+    std::vector<float> mask, layers, bound;
+};
+
+Judged judge(Device& device, float focus) {
+    const Scene scene = test::posts();
+    const Camera camera = test::lensCamera(0.4f, focus);
+    const std::vector<vec3> truth = test::tracedMeans(scene, camera, kExtent, 256);
+    PassRun raster(rasterPass(), device);
+    raster.kernelsOnHost().extent(kExtent).scene(scene).camera(camera).execute();
+    PassRun blur(depthOfFieldPass(), device);
+    blur.kernelsOnHost().extent(kExtent).camera(camera).param("taps", 0u);
+    blur.input("image", raster.value("color")).input("depth", raster.value("depth")).execute();
+    Judged judged;
+    for (const char* expect : {"mask", "layers"}) {
+        PassRun error(dofErrorPass(), device);
+        error.kernelsOnHost().extent(kExtent).camera(camera).param("expect", expect);
+        error.param("space", "linear").param("taps", 0u);
+        error.input("depth", raster.value("depth")).input("image", raster.value("color"));
+        for (const vec2& value : errorOf(error)) {
+            (expect[0] == 'm' ? judged.mask : judged.layers).push_back(value.x);
+            if (expect[0] == 'm')
+                judged.bound.push_back(value.y);
+        }
+    }
+    const std::vector<vec3> color = blur.output<vec3>("color");
+    for (uint i = 0; i < kPixels; ++i) {
+        const vec3 difference = glm::abs(color[i] - truth[i]);
+        judged.error.push_back(std::max({difference.x, difference.y, difference.z}));
+        judged.squared.push_back(glm::dot(difference, difference));
+    }
+    return judged;
+}
+
+// The promise of the mask: what it spares is right. The posts are of one colour each, so that all
 // that differs is what lies around their edges.
 TEST_F(DofErrorVulkan, FlagsWhateverTheBlurGotWrong) {
-    const Scene scene = test::posts();
     for (const float focus : {2.5f, 5.0f, 9.0f}) {
-        const Camera camera = test::lensCamera(0.4f, focus);
-        const std::vector<vec3> truth = test::tracedMeans(scene, camera, kExtent, 256);
-        PassRun raster(rasterPass(), device());
-        raster.kernelsOnHost().extent(kExtent).scene(scene).camera(camera).execute();
-        PassRun blur(depthOfFieldPass(), device());
-        blur.kernelsOnHost().extent(kExtent).camera(camera).param("taps", 0u);
-        blur.input("image", raster.value("color")).input("depth", raster.value("depth")).execute();
-        PassRun error(dofErrorPass(), device());
-        error.extent(kExtent).camera(camera).input("depth", raster.value("depth")).execute();
-        const std::vector<vec3> color = blur.output<vec3>("color");
-        const std::vector<vec2> flags = error.output<vec2>("error");
-        uint wrong = 0, missed = 0;
-        for (uint i = 0; i < kPixels; ++i) {
-            const vec3 difference = glm::abs(color[i] - truth[i]);
-            if (std::max({difference.x, difference.y, difference.z}) < 2.0f / 255)
-                continue;
-            ++wrong;
-            missed += flags[i].y == 0 ? 1u : 0u;
-        }
-        EXPECT_GT(wrong, 100u);
-        EXPECT_EQ(missed, 0u) << "of " << wrong << ", focus " << focus;
+        const Judged judged = judge(device(), focus);
+        const Detection detection = detect(judged.error, judged.bound, 2.0f / 255);
+        EXPECT_GT(detection.positives, 0.02) << "focus " << focus;
+        EXPECT_EQ(detection.recall, 1.0) << "focus " << focus;
+    }
+}
+
+TEST_F(DofErrorVulkan, OrdersByLayersFarBetterThanByTheMask) {
+    for (const float focus : {2.5f, 5.0f, 9.0f}) {
+        const Judged judged = judge(device(), focus);
+        const Convergence oracle = convergeOracle(judged.squared, {});
+        const double mask = gain(converge(judged.squared, judged.mask, {}), oracle);
+        const double layers = gain(converge(judged.squared, judged.layers, {}), oracle);
+        // Posts of two or three pixels: which way an edge between pixels is off, nobody can say.
+        EXPECT_GT(layers, 0.5) << "focus " << focus;
+        EXPECT_GT(layers, mask + 0.1) << "focus " << focus;
     }
 }
 
