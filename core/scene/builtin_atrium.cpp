@@ -313,7 +313,13 @@ Scene atriumScene() {
                      {.name = "mirror",
                       .position = {-2.5f, 2.3f, 1.7f},
                       .target = {0.0f, 1.95f, 0.0f},
-                      .fov_y_degrees = 50}};
+                      .fov_y_degrees = 50},
+                     {.name = "lens",
+                      .position = {-4.3f, 2.2f, 2.6f},
+                      .target = {0.0f, 1.95f, 0.0f},
+                      .fov_y_degrees = 45,
+                      .aperture = 0.15f,
+                      .focus = 5.0f}};
     return scene;
 }
 

@@ -113,10 +113,10 @@ TEST_P(Refinement, EndsAtTheTracedImageWithSeveralSamples) {
 
 // Each sample has its own primary ray then.
 TEST_P(Refinement, EndsAtTheTracedImageThroughALens) {
-    const std::unique_ptr<Executor> prt = load("prt"), sir = load("sir");
+    const std::unique_ptr<Executor> prt = load("prt"), sir = load("sir"), dof = load("dof");
     const std::vector<vec3> sharp = colorOf(*prt);
     camera_.lens_radius = 0.1f;
-    for (Executor* executor : {prt.get(), sir.get()}) {
+    for (Executor* executor : {prt.get(), sir.get(), dof.get()}) {
         executor->setCamera(camera_);
         executor->setParameter("samples", "5");
     }
@@ -124,10 +124,28 @@ TEST_P(Refinement, EndsAtTheTracedImageThroughALens) {
     if (GetParam() == "cornell" || GetParam() == "mirror_sphere") {
         EXPECT_FALSE(areSameBits(traced, sharp)) << "nothing is blurred";
     }
-    for (const char* batch : {"0", "100"}) {
-        sir->setParameter("batch", batch);
-        EXPECT_TRUE(areSameBits(colorOf(*sir), traced)) << "batch " << batch;
-    }
+    for (Executor* executor : {sir.get(), dof.get()})
+        for (const char* batch : {"0", "100"}) {
+            executor->setParameter("batch", batch);
+            EXPECT_TRUE(areSameBits(colorOf(*executor), traced)) << "batch " << batch;
+        }
+}
+
+// With a pinhole dof.json is sir.json.
+TEST_P(Refinement, BlursNothingForAPinhole) {
+    const std::unique_ptr<Executor> sir = load("sir"), dof = load("dof");
+    sir->run();
+    dof->run();
+    const auto planes = [](Executor& executor, const char* output) {
+        const std::span<vec2> error = executor.output(output).as<vec2>();
+        return std::vector<vec2>(error.begin(), error.end());
+    };
+    EXPECT_EQ(planes(*sir, "error"), planes(*dof, "error"));
+    const auto raster = [](Executor& executor) {
+        const std::span<vec3> pixels = executor.output("raster").as<vec3>();
+        return std::vector<vec3>(pixels.begin(), pixels.end());
+    };
+    EXPECT_TRUE(areSameBits(raster(*sir), raster(*dof)));
 }
 
 TEST_P(Refinement, TracesTheSameImageInBatchesOfAnySize) {
