@@ -13,7 +13,7 @@
 HONE_READ(Light, scene_lights)
 HONE_READ(Environment, scene_environment)
 
-HONE_CONST float kPi = 3.14159265f;
+#include "hone/passes/shading/light_extent.glsl.h"
 
 /// What a ray sees that hits nothing. `direction` need not be unit.
 vec3 environmentRadiance(vec3 direction) {

@@ -2,34 +2,49 @@
 //
 // Looking up the hard shadow maps that pass shadow_map makes. The record describes itself:
 //
-//     shadow_maps[0] size of a face in texels   [1] points per rectangle light
+//     shadow_maps[0] size of a face in texels   [1] points per light that has an extent
 //     shadow_maps[2..4] centre of the scene     [5] its radius     [6], [7] unused
 //
-// then, for each light in order and each of its points (rectangle: the centre, then the corners;
-// others: one), six faces of size x size linear depths along the face's axis, 1e30 where nothing
-// is. Directional lights use one orthographic face looking along the light, covering the scene's
-// sphere, and leave five empty. Kernel source: included flat, once, inside a kernel, after
-// cube.glsl.h and shading.glsl.h.
+// then, for each light in order and each of its points (the centre, then four around it; one where
+// the light has no extent, none where nothing blocks it), six faces of size x size linear depths
+// along the face's axis, 1e30 where nothing is. Directional lights use one orthographic face
+// looking along the light, covering the scene's sphere, and leave five empty. Kernel source:
+// included flat, once, inside a kernel, after cube.glsl.h and shading.glsl.h.
 
 HONE_READ(float, shadow_maps)
 
 HONE_CONST uint kShadowHeader = 8u;
 HONE_CONST float kShadowOffset = 0.5f; // texels, where the light grazes
 
+/// Maps of a light.
 uint shadowPoints(Light light) {
-    return light.kind == kLightRectangle ? uint(shadow_maps[1]) : 1u;
+    if (light.shadowless != 0u)
+        return 0u;
+    return hasExtent(light) ? uint(shadow_maps[1]) : 1u;
 }
 
-/// A light's k-th point: 0 the centre, 1..4 the corners of a rectangle, then points halfway to
-/// them.
+/// The sides to which a light's points k = 1..4 lie: corners of a square.
+vec2 shadowCorner(uint k) {
+    return vec2(((k - 1u) & 1u) == 0u ? -1.0f : 1.0f, k < 3u ? -1.0f : 1.0f);
+}
+
+/// A light's k-th point: 0 the centre; 1..4 the corners of a rectangle, points between them on the
+/// rim of a disc, the corners of a tetrahedron in a sphere, which no side hides.
 vec3 lightPoint(Light light, uint k) {
-    if (light.kind != kLightRectangle || k == 0u)
+    if (k == 0u || light.kind == kLightDirectional)
         return light.position;
-    uint corner = (k - 1u) & 3u;
-    float reach = k <= 4u ? 1.0f : 0.5f;
-    float u = (corner & 1u) == 0u ? -reach : reach;
-    float v = corner < 2u ? -reach : reach;
-    return light.position + u * light.half_u + v * light.half_v;
+    vec2 corner = shadowCorner(k);
+    if (light.kind == kLightSphere)
+        return light.position +
+               light.radius * 0.57735027f * vec3(corner.x, corner.y, corner.x * corner.y);
+    return pointOfLight(light, light.position, corner);
+}
+
+/// Where a directional light's k-th point sends its light: a unit direction.
+vec3 lightDirection(Light light, uint k) {
+    if (k == 0u)
+        return light.direction;
+    return -normalize(pointOfLight(light, light.position, shadowCorner(k)));
 }
 
 /// Index of the first texel of a light's map for its point k.
@@ -53,12 +68,6 @@ struct ShadowLookup {
     vec2 slope;  ///< how that changes over the surface's plane, by column and row
 };
 
-/// Two unit vectors that span the plane across `direction`, for directional lights' maps.
-vec3 shadowRight(vec3 direction) {
-    vec3 axis = abs(direction.y) < 0.99f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f);
-    return normalize(cross(direction, axis));
-}
-
 ShadowLookup shadowLookup(uint light_index, uint k, vec3 position, vec3 normal) {
     Light light = scene_lights[light_index];
     uint size = uint(shadow_maps[0]);
@@ -68,16 +77,17 @@ ShadowLookup shadowLookup(uint light_index, uint k, vec3 position, vec3 normal) 
     if (result.is_box) {
         vec3 center = vec3(shadow_maps[2], shadow_maps[3], shadow_maps[4]);
         float radius = shadow_maps[5];
-        vec3 right = shadowRight(light.direction);
-        vec3 up = cross(right, light.direction);
+        vec3 along = lightDirection(light, k);
+        vec3 right = across(along);
+        vec3 up = cross(right, along);
         vec3 from_center = position - center;
-        result.depth = dot(from_center, light.direction) + radius;
+        result.depth = dot(from_center, along) + radius;
         result.position = vec2((0.5f + 0.5f * dot(from_center, right) / radius) * float(size),
                                (0.5f - 0.5f * dot(from_center, up) / radius) * float(size));
         result.texel = 2.0f * radius / float(size);
         result.plane = result.depth;
-        result.slope = vec2(-dot(normal, right), dot(normal, up)) *
-                       (result.texel / dot(normal, light.direction));
+        result.slope =
+            vec2(-dot(normal, right), dot(normal, up)) * (result.texel / dot(normal, along));
         return result;
     }
     vec3 direction = position - lightPoint(light, k);

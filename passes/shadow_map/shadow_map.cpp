@@ -4,13 +4,14 @@
 //
 // Draws a cube of depth maps around each light point (one face for directional lights), both faces
 // of every triangle, holes of masked materials left open: what blocks a shadow ray is in the map.
-// Faces that the light does not shine into hold nothing. The record's layout is documented in
-// passes/shading/shadow_map.glsl.h. Runs again only when the scene changed.
+// Faces that the light does not shine into hold nothing; lights that nothing blocks have no maps.
+// The record's layout is documented in passes/shading/shadow_map.glsl.h. Runs again only when the
+// scene changed.
 //
 // in   scene   Scene
 // out  maps    ShadowMaps
 // params  size    texels along a face's edge (1024)
-//         points  points on a rectangle light: 1 its centre, 5 the corners as well (5)
+//         points  points of a light that has an extent: 1 its centre, 5 four around it as well (5)
 //
 //     "shadow_map": { "type": "shadow_map", "in": { "scene": "$scene" } }
 //
@@ -48,14 +49,22 @@ struct MapLayout : HostKernel {
 #include "hone/passes/shading/shadow_map.glsl.h"
 };
 
+/// Which lights have how many maps is known before there are any.
+struct LightShape : HostKernel {
+    using HostKernel::HostKernel;
+#include "hone/passes/shading/light_extent.glsl.h"
+};
+
 constexpr std::size_t kHeader = MapLayout::kShadowHeader;
 /// Nothing nearer to a light casts a shadow; a part of the scene's radius.
 constexpr float kNear = 1e-4f;
 
 std::size_t mapCount(const Scene& scene, uint points) {
+    LightShape shape({}, nullptr);
     std::size_t maps = 0;
     for (const Light& light : scene.lights)
-        maps += light.kind == kLightRectangle ? points : 1u;
+        if (light.shadowless == 0)
+            maps += shape.hasExtent(light) ? points : 1u;
     return maps;
 }
 
@@ -69,7 +78,7 @@ bool shinesInto(const Light& light, vec3 forward) {
     constexpr float kHalfDiagonal =
         0.9553167f; // from a face's axis to its corners: acos(1/sqrt(3))
     const float angle = std::acos(std::clamp(glm::dot(forward, light.direction), -1.0f, 1.0f));
-    if (light.kind == kLightRectangle)
+    if (light.kind == kLightRectangle || light.kind == kLightDisc)
         return angle < kHalfDiagonal + 0.5f * glm::pi<float>();
     if (light.kind == kLightSpot)
         return angle < kHalfDiagonal + std::acos(std::clamp(light.cos_outer, -1.0f, 1.0f));
@@ -138,10 +147,10 @@ private:
         Camera& camera = view.camera;
         if (light.kind == kLightDirectional) {
             const vec3 center(layout.shadow_maps[2], layout.shadow_maps[3], layout.shadow_maps[4]);
-            camera.position = center - radius * light.direction;
-            camera.forward = light.direction;
-            camera.right = layout.shadowRight(light.direction);
-            camera.up = glm::cross(camera.right, light.direction);
+            camera.forward = layout.lightDirection(light, k);
+            camera.position = center - radius * camera.forward;
+            camera.right = layout.across(camera.forward);
+            camera.up = glm::cross(camera.right, camera.forward);
             camera.tan_half_fov_y = radius;
             view.depth_range = 2.0f * radius;
             return view;
@@ -166,7 +175,7 @@ PassType shadowMapPass() {
         .out("maps", types::kShadowMaps, "see passes/shading/shadow_map.glsl.h", recordSize)
         .param("size", 1024u, {.min = 16, .max = 8192}, "texels along a face's edge")
         .param("points", 5u, {.min = 1, .max = 5},
-               "points on a rectangle light that get maps: its centre, then its corners")
+               "points that get maps of a light with an extent: its centre, then four around it")
         .implementedBy<ShadowMap>(Domain::kEither);
 }
 

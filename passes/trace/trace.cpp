@@ -3,11 +3,11 @@
 // trace: answers requests with ray-traced radiance samples.
 //
 // A pixel's samples go through its centre. A pinhole's share the primary ray, and so its hit, and
-// differ in the points of area lights that their shadow rays go to; a thin lens's start at points
-// of the lens and meet where the ray through its centre crosses the plane of focus. A hit is shaded
-// with the functions that raster uses, in the same order of sums (shading.glsl.h), each light times
-// whether its shadow ray arrives; mirrors are followed. Sample s of pixel p depends on the scene,
-// the camera, the seed, p and s only.
+// differ in the points of lights with an extent that their shadow rays go to; a thin lens's start
+// at points of the lens and meet where the ray through its centre crosses the plane of focus. A hit
+// is shaded with the functions that raster uses, in the same order of sums (shading.glsl.h), each
+// light times whether its shadow ray arrives; mirrors are followed. Sample s of pixel p depends on
+// the scene, the camera, the seed, p and s only.
 //
 // in   requests  RequestList
 // in   scene     Scene

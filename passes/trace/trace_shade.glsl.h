@@ -33,15 +33,16 @@ HONE_WRITE(uint, next_flags) // number of shadow rays; kGoesOn
 
 HONE_CONST uint kGoesOn = 0x80000000u;
 
-/// Where the shadow ray of this sample ends: the light's centre, or a random point of a rectangle.
-vec3 lightPoint(Light light, uint light_index, Path path) {
-    if (light.kind != kLightRectangle)
-        return light.position;
+/// Where the shadow ray of this sample ends: the light's centre, or a random point of its extent.
+/// Directional: the direction towards it.
+vec3 lightPoint(Light light, uint light_index, vec3 position, Path path) {
+    if (!hasExtent(light))
+        return light.kind == kLightDirectional ? -light.direction : light.position;
     uvec4 random =
         pcg4d(uvec4(path.pixel, path.sample_number,
                     (params.bounce << 16u | light_index) ^ params.seed_high, params.seed_low));
-    return light.position + (2.0f * unitFloat(random.x) - 1.0f) * light.half_u +
-           (2.0f * unitFloat(random.y) - 1.0f) * light.half_v;
+    return pointOfLight(light, position,
+                        vec2(2.0f * unitFloat(random.x) - 1.0f, 2.0f * unitFloat(random.y) - 1.0f));
 }
 
 /// From the surface to just before the light, so that a lamp's own geometry does not block it.
@@ -52,7 +53,7 @@ Ray shadowRay(Light light, vec3 origin, vec3 point) {
     ray.direction = point - origin;
     ray.tmax = 0.9999f;
     if (light.kind == kLightDirectional) {
-        ray.direction = -light.direction;
+        ray.direction = point;
         ray.tmax = 1e30f;
     }
     return ray;
@@ -104,7 +105,8 @@ void kernel(uint index) {
         bool asks = radiance.x + radiance.y + radiance.z > 0.0f && light.shadowless == 0u;
         uint slot = i * params.path_count + index;
         light_radiance[slot] = radiance;
-        shadow_rays[slot] = asks ? shadowRay(light, origin, lightPoint(light, i, path)) : noRay();
+        shadow_rays[slot] =
+            asks ? shadowRay(light, origin, lightPoint(light, i, surface.position, path)) : noRay();
         flags += asks ? 1u : 0u;
     }
 

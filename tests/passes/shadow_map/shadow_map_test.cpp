@@ -129,5 +129,71 @@ TEST_F(ShadowMap, OfARectangleHasFivePointsAndNothingBehind) {
     EXPECT_EQ(mapsOf(scene, 1).size(), kHeader + 6 * kSize * kSize);
 }
 
+/// A floor 5 below the light.
+Scene floorUnder(const Light& light) {
+    test::SceneBuilder builder;
+    addFloor(builder, builder.addMaterial(test::plainMaterial()), 0, 100);
+    Scene scene = builder.finish();
+    scene.lights = {light};
+    return scene;
+}
+
+TEST_F(ShadowMap, OfADiscHasPointsOnItsRim) {
+    Light disc = pointLight({0, 5, 0});
+    disc.kind = kLightDisc;
+    disc.direction = vec3(0, -1, 0);
+    disc.half_u = vec3(1, 0, 0);
+    disc.half_v = vec3(0, 1, 0); // leaning out of the plane: depth tells the points apart
+    const std::vector<float> maps = mapsOf(floorUnder(disc));
+    ASSERT_EQ(maps.size(), kHeader + 5 * 6 * kSize * kSize);
+    const float rim = std::sqrt(0.5f); // halfway between the axes
+    EXPECT_NEAR(texel(maps, 0, 3, 32, 32), 5.0f, 1e-4f);
+    EXPECT_NEAR(texel(maps, 1, 3, 32, 32), 5.0f - rim, 1e-4f);
+    EXPECT_NEAR(texel(maps, 4, 3, 32, 32), 5.0f + rim, 1e-4f);
+    EXPECT_EQ(texel(maps, 0, 2, 32, 32), 1e30f);
+}
+
+TEST_F(ShadowMap, OfASphereHasPointsToAllSides) {
+    Light sphere = pointLight({0, 5, 0});
+    sphere.kind = kLightSphere;
+    sphere.radius = 1.5f;
+    const std::vector<float> maps = mapsOf(floorUnder(sphere));
+    ASSERT_EQ(maps.size(), kHeader + 5 * 6 * kSize * kSize);
+    // A regular tetrahedron: two corners below the centre, two above, by radius / sqrt(3).
+    const float off = 1.5f / std::sqrt(3.0f);
+    const float depths[] = {5, 5 - off, 5 - off, 5 + off, 5 + off};
+    for (uint k = 0; k < 5; ++k)
+        EXPECT_NEAR(texel(maps, k, 3, 32, 32), depths[k], 1e-4f) << k;
+}
+
+TEST_F(ShadowMap, OfTheSunIsSeenFromSeveralDirections) {
+    Light sun = pointLight({0, 0, 0});
+    sun.kind = kLightDirectional;
+    sun.direction = vec3(0, -1, 0);
+    sun.radius = 0.2f;
+    Scene scene = floorUnder(sun);
+    const std::vector<float> maps = mapsOf(scene);
+    ASSERT_EQ(maps.size(), kHeader + 5 * 6 * kSize * kSize);
+    // Depth changes along a floor by the tangent of the tilt, whichever way that is.
+    const float step = 16 * 2 * maps[5] / kSize;
+    for (uint k = 0; k < 5; ++k) {
+        const float u = (texel(maps, k, 0, 40, 32) - texel(maps, k, 0, 24, 32)) / step;
+        const float v = (texel(maps, k, 0, 32, 40) - texel(maps, k, 0, 32, 24)) / step;
+        EXPECT_NEAR(std::hypot(u, v), k == 0 ? 0.0f : 0.2f, 1e-4f) << k;
+    }
+    scene.lights[0].radius = 0;
+    EXPECT_EQ(mapsOf(scene).size(), kHeader + 6 * kSize * kSize) << "one direction";
+}
+
+TEST_F(ShadowMap, OfALightThatNothingBlocksIsNone) {
+    Light light = pointLight({0, 5, 0});
+    Scene scene = floorUnder(light);
+    scene.lights = {light, light};
+    scene.lights[0].shadowless = 1;
+    const std::vector<float> maps = mapsOf(scene);
+    ASSERT_EQ(maps.size(), kHeader + 6 * kSize * kSize);
+    EXPECT_NEAR(texel(maps, 0, 3, 32, 32), 5.0f, 1e-4f) << "the second light's comes first";
+}
+
 } // namespace
 } // namespace hone

@@ -134,34 +134,68 @@ TEST(Trace, AddsLightsAndAsksOnlyThoseThatArrive) {
     EXPECT_EQ(run.counter("rays.shadow"), 2);
 }
 
-TEST(Trace, SeesTheVisiblePartOfARectangle) {
-    // A light of side 2 at height 10; a half-plane x <= 0 at height 4. Seen from x on the floor the
-    // light is visible for 1/2 + x (10 - 4) / (4 * 2): 0.725 at x = 0.3.
-    test::SceneBuilder builder;
-    const uint white = builder.addMaterial(test::plainMaterial(kMaterialTwoSided));
-    addSquare(builder, vec3(0), vec3(100, 0, 0), vec3(0, 0, -100), white);
-    addSquare(builder, vec3(-50, 4, 0), vec3(50, 0, 0), vec3(0, 0, -50), white);
-    Scene scene = builder.finish();
+Light lampAbove(uint kind) {
     Light light{};
-    light.kind = kLightRectangle;
+    light.kind = kind;
     light.position = vec3(0, 10, 0);
     light.direction = vec3(0, -1, 0);
     light.half_u = vec3(1, 0, 0);
     light.half_v = vec3(0, 0, 1);
     light.intensity = vec3(1);
-    scene.lights = {light};
-    const uint samples = 4096;
-    TraceRun run(scene, cameraAt({0.3f, 1, 0}, {0, -1, 0}, {0, 0, -1}), samples);
-    vec3 sum(0);
+    light.radius = kind == kLightDirectional ? 0.1f : 1.0f;
+    return light;
+}
+
+/// The part of the light that a floor sees at x beside the edge of a half-plane x <= 0 at height 4.
+float visiblePart(const Light& light, float x, uint samples) {
+    const Camera camera = cameraAt({x, 1, 0}, {0, -1, 0}, {0, 0, -1});
+    Scene open = floorScene();
+    open.lights = {light};
+    test::SceneBuilder builder;
+    const uint white = builder.addMaterial(test::plainMaterial(kMaterialTwoSided));
+    addSquare(builder, vec3(0), vec3(100, 0, 0), vec3(0, 0, -100), white);
+    addSquare(builder, vec3(-50, 4, 0), vec3(50, 0, 0), vec3(0, 0, -50), white);
+    Scene edge = builder.finish();
+    edge.lights = {light};
+    TraceRun run(edge, camera, samples);
+    float sum = 0;
     for (const Sample& sample : run.execute().output<Sample>("samples"))
-        sum += sample.radiance;
-    // From the centre: radiance 1 * area 4 * cos^2 / distance^2 / pi.
-    const float squared = 0.3f * 0.3f + 100.0f;
-    const float lit = 4.0f * (100.0f / squared) / squared / kPi;
-    // The deviation of the mean is sqrt(0.725 * 0.275 / 4096) = 0.007.
-    EXPECT_NEAR(sum.x / static_cast<float>(samples) / lit, 0.725f, 0.028f);
+        sum += sample.radiance.x;
     EXPECT_EQ(run.counter("rays.primary"), 1);
     EXPECT_EQ(run.counter("rays.shadow"), samples);
+    return sum / static_cast<float>(samples) / TraceRun(open, camera).radiance().x;
+}
+
+TEST(Trace, SeesTheVisiblePartOfALightWithAnExtent) {
+    // From x, the edge hides what of the light is left of -1.5 x: at x = 0.3 of a side of 2 the
+    // share 1/2 - 0.225; of a disc of radius 1 the segment (acos t - t sqrt(1 - t^2)) / pi beyond
+    // t = 0.45. A sphere's disc faces the floor's point: t = 0.4487 / cos(0.0449), the centre's
+    // distance to the plane through point and edge. The sun's t is 0.3 / 4 / 0.1 = 0.75.
+    const uint samples = 16384;
+    const struct {
+        uint kind;
+        float visible;
+    } cases[] = {{kLightRectangle, 0.725f},
+                 {kLightDisc, 0.77649f},
+                 {kLightSphere, 0.77603f},
+                 {kLightDirectional, 0.92785f}};
+    // The deviation of the mean is at most sqrt(0.725 * 0.275 / 16384) = 0.0035.
+    for (const auto& expected : cases)
+        EXPECT_NEAR(visiblePart(lampAbove(expected.kind), 0.3f, samples), expected.visible, 0.014f)
+            << expected.kind;
+}
+
+TEST(Trace, SeesAllOrNothingBesideThePenumbra) {
+    // L h / (H - h) = 4/3 wide under the lamp; the sun's is 4 * 2 tan = 0.8 wide.
+    for (uint kind : {kLightRectangle, kLightDisc, kLightSphere, kLightDirectional}) {
+        const float half = kind == kLightDirectional ? 0.4f : 2.0f / 3.0f;
+        // One sample of them would be 1/1024.
+        EXPECT_NEAR(visiblePart(lampAbove(kind), half + 0.01f, 1024), 1.0f, 1e-4f) << kind;
+        EXPECT_EQ(visiblePart(lampAbove(kind), -half - 0.01f, 1024), 0.0f) << kind;
+        const float inside = visiblePart(lampAbove(kind), half - 0.05f, 1024);
+        EXPECT_GT(inside, 0.5f) << kind;
+        EXPECT_LT(inside, 1.0f) << kind;
+    }
 }
 
 /// Two mirrors of reflectance 1/2 that face each other and emit 1, seen perpendicularly between
