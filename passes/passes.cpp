@@ -11,12 +11,12 @@ void registerPasses(PassRegistry& registry) {
     registry.add(differencePass());
     registry.add(dofErrorPass());
     registry.add(environmentProbePass());
+    registry.add(kbm10ErrorPass());
     registry.add(propagateErrorPass());
     registry.add(rasterPass());
     registry.add(reflectionErrorPass());
     registry.add(requestPass());
     registry.add(selfOcclusionPass());
-    registry.add(shadowErrorPass());
     registry.add(shadowMapPass());
     registry.add(sortPass());
     registry.add(tonemapPass());

@@ -13,12 +13,12 @@ namespace hone {
 [[nodiscard]] PassType differencePass();
 [[nodiscard]] PassType dofErrorPass();
 [[nodiscard]] PassType environmentProbePass();
+[[nodiscard]] PassType kbm10ErrorPass();
 [[nodiscard]] PassType propagateErrorPass();
 [[nodiscard]] PassType rasterPass();
 [[nodiscard]] PassType reflectionErrorPass();
 [[nodiscard]] PassType requestPass();
 [[nodiscard]] PassType selfOcclusionPass();
-[[nodiscard]] PassType shadowErrorPass();
 [[nodiscard]] PassType shadowMapPass();
 [[nodiscard]] PassType sortPass();
 [[nodiscard]] PassType tonemapPass();

@@ -59,7 +59,7 @@ TEST(Json, PassesDescribesPortsAndParameters) {
             expectKeys(param, {"name", "type", "range", "default", "doc"});
     }
     EXPECT_TRUE(std::ranges::is_sorted(names));
-    for (const char* name : {"accumulate", "blend", "combine", "error.reflection", "error.shadow",
+    for (const char* name : {"accumulate", "blend", "combine", "error.reflection", "error.kbm10",
                              "raster", "request", "sort", "tonemap", "trace"})
         EXPECT_NE(std::ranges::find(names, name), names.end()) << name;
 

@@ -45,7 +45,7 @@ void addSquare(test::SceneBuilder& builder, vec3 middle, vec3 u, vec3 v) {
     builder.add(positions, triangles, builder.addMaterial(test::plainMaterial(kMaterialTwoSided)));
 }
 
-class ShadowError : public VulkanTest {
+class Kbm10Error : public VulkanTest {
 protected:
     static constexpr uvec2 kExtent{128, 128};
 
@@ -57,7 +57,7 @@ protected:
         maps.param("size", kMapSize).param("points", points).execute();
         PassRun raster(rasterPass(), device());
         raster.kernelsOnHost().extent(kExtent).scene(scene).camera(camera).execute();
-        PassRun error(shadowErrorPass(), device());
+        PassRun error(kbm10ErrorPass(), device());
         error.kernelsOnHost().extent(kExtent).scene(scene).camera(camera);
         error.param("dilation", dilation).param("include_umbra", include_umbra);
         error.input("gbuffer", raster.value("gbuffer"));
@@ -81,7 +81,7 @@ Camera lookingDown() {
     return cameraAt({0, 3.5f, 0}, {0, -1, 0}, {0, 0, -1});
 }
 
-TEST_F(ShadowError, FlagsThePenumbraOfAStraightEdge) {
+TEST_F(Kbm10Error, FlagsThePenumbraOfAStraightEdge) {
     // The penumbra is L h / (H - h) = 4/3 wide: |x| <= 2/3.
     const std::vector<vec2> error = errorOf(edgeOverFloor(), lookingDown());
     const float pixel = 7.0f / 128;
@@ -99,7 +99,7 @@ TEST_F(ShadowError, FlagsThePenumbraOfAStraightEdge) {
     }
 }
 
-TEST_F(ShadowError, FlagsTheEdgeOfAMapAroundAPointLight) {
+TEST_F(Kbm10Error, FlagsTheEdgeOfAMapAroundAPointLight) {
     Scene scene = edgeOverFloor();
     scene.lights[0].kind = kLightPoint;
     const std::vector<vec2> error = errorOf(scene, lookingDown(), 1, 0);
@@ -117,7 +117,7 @@ TEST_F(ShadowError, FlagsTheEdgeOfAMapAroundAPointLight) {
     }
 }
 
-TEST_F(ShadowError, DilatesByPixelsToEachSide) {
+TEST_F(Kbm10Error, DilatesByPixelsToEachSide) {
     const std::vector<vec2> narrow = errorOf(edgeOverFloor(), lookingDown(), 5, 0);
     const std::vector<vec2> wide = errorOf(edgeOverFloor(), lookingDown(), 5, 3);
     // Along the middle row.
@@ -129,13 +129,13 @@ TEST_F(ShadowError, DilatesByPixelsToEachSide) {
     EXPECT_EQ(wide_count, narrow_count + 6);
 }
 
-TEST_F(ShadowError, FlagsTheUmbraWhenAsked) {
+TEST_F(Kbm10Error, FlagsTheUmbraWhenAsked) {
     const std::vector<vec2> error = errorOf(edgeOverFloor(), lookingDown(), 5, 0, true);
     EXPECT_EQ(error[64 * 128 + 10].x, 1.0f) << "in the umbra";
     EXPECT_EQ(error[64 * 128 + 117].x, 0.0f) << "in the light";
 }
 
-TEST_F(ShadowError, IsNothingOnALitFloor) {
+TEST_F(Kbm10Error, IsNothingOnALitFloor) {
     test::SceneBuilder builder;
     addSquare(builder, vec3(0), vec3(1, 0, 0), vec3(0, 0, -1));
     Scene scene = builder.finish();
@@ -144,7 +144,7 @@ TEST_F(ShadowError, IsNothingOnALitFloor) {
         EXPECT_EQ(error, vec2(0.0f));
 }
 
-TEST_F(ShadowError, IsNothingOnAReceiverSlantedBy80Degrees) {
+TEST_F(Kbm10Error, IsNothingOnAReceiverSlantedBy80Degrees) {
     // Its own neighbours in the map must not count as what blocks it, whichever way it leans.
     for (float turn : {0.0f, 0.4f, 0.785398f}) {
         const float angle = 80 * 0.017453293f;
@@ -165,7 +165,7 @@ TEST_F(ShadowError, IsNothingOnAReceiverSlantedBy80Degrees) {
     }
 }
 
-TEST_F(ShadowError, IsNothingWhereNoLightCanArrive) {
+TEST_F(Kbm10Error, IsNothingWhereNoLightCanArrive) {
     // From below, the floor turns its back to the lamp; the half-plane's shadow does not matter.
     const Camera camera = cameraAt({0, -3.5f, 0}, {0, 1, 0}, {0, 0, -1});
     for (const vec2& error : errorOf(edgeOverFloor(), camera))

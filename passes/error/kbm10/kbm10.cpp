@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// error.shadow: where the raster image's hard shadows differ from soft ones.
+// error.kbm10: where the raster image's hard shadows differ from soft ones.
 //
 // Asks the shadow maps of several points of each light, each over 3 x 3 texels. Where the answers
 // differ is penumbra (or the edge of a hard shadow, which the map draws only as fine as its
@@ -17,9 +17,9 @@
 //                        (false)
 //         dilation       pixels to each side (2: 5 x 5 as in the source)
 //
-//     "shadow": { "type": "error.shadow",
-//                 "in": { "gbuffer": "raster.gbuffer", "scene": "$scene", "camera": "$camera",
-//                         "shadow_maps": "shadow_map.maps" } }
+//     "kbm10": { "type": "error.kbm10",
+//                "in": { "gbuffer": "raster.gbuffer", "scene": "$scene", "camera": "$camera",
+//                        "shadow_maps": "shadow_map.maps" } }
 //
 // Source: Knauer, Baerz, Mueller, A hybrid approach to interactive global illumination and soft
 // shadows, 2010; used by Amann, Chajdas, Westermann, 2012.
@@ -36,22 +36,22 @@ namespace {
 
 struct Penumbra : HostKernel {
     using HostKernel::HostKernel;
-#include "hone/passes/error/shadow/penumbra.glsl.h"
+#include "hone/passes/error/kbm10/penumbra.glsl.h"
 };
 struct DilateRows : HostKernel {
     using HostKernel::HostKernel;
-#include "hone/passes/error/shadow/dilate_rows.glsl.h"
+#include "hone/passes/error/kbm10/dilate_rows.glsl.h"
 };
 struct DilateColumns : HostKernel {
     using HostKernel::HostKernel;
-#include "hone/passes/error/shadow/dilate_columns.glsl.h"
+#include "hone/passes/error/kbm10/dilate_columns.glsl.h"
 };
 constexpr Kernel kPenumbra = makeKernel<Penumbra>("penumbra", spirv::penumbra);
 constexpr Kernel kDilateRows = makeKernel<DilateRows>("dilate_rows", spirv::dilate_rows);
 constexpr Kernel kDilateColumns =
     makeKernel<DilateColumns>("dilate_columns", spirv::dilate_columns);
 
-class ShadowError final : public RenderPass {
+class Kbm10Error final : public RenderPass {
 public:
     void execute(PassContext& context) override {
         const uint pixels = context.extent.x * context.extent.y;
@@ -78,8 +78,8 @@ private:
 
 } // namespace
 
-PassType shadowErrorPass() {
-    return PassType("error.shadow", "Where hard shadows differ from soft ones")
+PassType kbm10ErrorPass() {
+    return PassType("error.kbm10", "Where hard shadows differ from soft ones")
         .in("gbuffer", types::kHits, "what the raster image sees")
         .in("scene", types::kScene, "surfaces and lights")
         .in("camera", types::kCamera, "of the raster image")
@@ -87,7 +87,7 @@ PassType shadowErrorPass() {
         .out("error", types::kError, "1 in the penumbra, else 0")
         .param("include_umbra", false, "whether pixels that no point sees are flagged, too")
         .param("dilation", 2u, {.min = 0, .max = 8}, "pixels that the mask grows to each side")
-        .implementedBy<ShadowError>(Domain::kEither);
+        .implementedBy<Kbm10Error>(Domain::kEither);
 }
 
 } // namespace hone
