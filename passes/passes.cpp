@@ -18,6 +18,7 @@ void registerPasses(PassRegistry& registry) {
     registry.add(requestPass());
     registry.add(selfOcclusionPass());
     registry.add(shadowMapPass());
+    registry.add(shadowRangePass());
     registry.add(sortPass());
     registry.add(tonemapPass());
     registry.add(tracePass());

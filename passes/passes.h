@@ -20,6 +20,7 @@ namespace hone {
 [[nodiscard]] PassType requestPass();
 [[nodiscard]] PassType selfOcclusionPass();
 [[nodiscard]] PassType shadowMapPass();
+[[nodiscard]] PassType shadowRangePass();
 [[nodiscard]] PassType sortPass();
 [[nodiscard]] PassType tonemapPass();
 [[nodiscard]] PassType tracePass();

@@ -63,6 +63,9 @@ inline constexpr PortType kCursor{"Cursor", Shape::kRecord, 4,
                                   "uint, how far the order was requested"};
 inline constexpr PortType kShadowMaps{"ShadowMaps", Shape::kRecord, 4,
                                       "float depth cube maps by light, point, face"};
+inline constexpr PortType kShadowRanges{"ShadowRanges", Shape::kRecord, 8,
+                                        "bits of the least and greatest depth of squares of shadow "
+                                        "maps, by light, face, level"};
 inline constexpr PortType kEnvironmentMaps{"EnvironmentMaps", Shape::kRecord, 16,
                                            "vec4 (radiance, distance) cube maps by probe, face"};
 inline constexpr PortType kOcclusion{"Occlusion", Shape::kRecord, 4,
@@ -73,9 +76,9 @@ inline constexpr PortType kCurve{"Curve", Shape::kCurve, 0, "what a loop did, by
 /// Every type that hone knows by itself; plug-ins' types are those of their passes' ports
 /// (graphTypes in pass_type.h finds all).
 inline constexpr PortType kAll[] = {
-    kScene,      kCamera,          kExtent,    kHits,      kDepth,       kRadiance, kDisplay,
-    kError,      kAccumulation,    kRound,     kPixelList, kRequestList, kSamples,  kCursor,
-    kShadowMaps, kEnvironmentMaps, kOcclusion, kCurve};
+    kScene,      kCamera,       kExtent,          kHits,      kDepth,       kRadiance, kDisplay,
+    kError,      kAccumulation, kRound,           kPixelList, kRequestList, kSamples,  kCursor,
+    kShadowMaps, kShadowRanges, kEnvironmentMaps, kOcclusion, kCurve};
 
 } // namespace types
 } // namespace hone

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/passes/passes.h"
 #include "hone/tests/support/run_pass.h"
-#include "hone/tests/support/scene_builder.h"
+#include "hone/tests/support/shadow_scenes.h"
 #include "hone/tests/support/vulkan_fixture.h"
 
 #include <gtest/gtest.h>
@@ -12,38 +12,9 @@
 namespace hone {
 namespace {
 
+using namespace test;
+
 constexpr uint kMapSize = 512;
-
-/// 2 x 2 at height 10 over the origin, shining down.
-Light lamp() {
-    Light light{};
-    light.kind = kLightRectangle;
-    light.position = vec3(0, 10, 0);
-    light.direction = vec3(0, -1, 0);
-    light.half_u = vec3(1, 0, 0);
-    light.half_v = vec3(0, 0, 1);
-    light.intensity = vec3(1.0f);
-    return light;
-}
-
-Camera cameraAt(vec3 position, vec3 forward, vec3 up) {
-    Camera camera{};
-    camera.position = position;
-    camera.forward = glm::normalize(forward);
-    camera.right = glm::normalize(glm::cross(camera.forward, up));
-    camera.up = glm::cross(camera.right, camera.forward);
-    camera.tan_half_fov_y = 1.0f;
-    camera.near = 0.01f;
-    return camera;
-}
-
-/// A square of 40 x 40 around `middle`, spanned by unit vectors.
-void addSquare(test::SceneBuilder& builder, vec3 middle, vec3 u, vec3 v) {
-    const vec3 positions[] = {middle - 20.0f * (u + v), middle + 20.0f * (u - v),
-                              middle + 20.0f * (u + v), middle + 20.0f * (v - u)};
-    const uvec3 triangles[] = {{0, 1, 2}, {0, 2, 3}};
-    builder.add(positions, triangles, builder.addMaterial(test::plainMaterial(kMaterialTwoSided)));
-}
 
 class Kbm10Error : public VulkanTest {
 protected:
@@ -66,24 +37,9 @@ protected:
     }
 };
 
-/// SCIENCE 9.7: a half-plane x < 0 at height 4 under the lamp, and a floor below.
-Scene edgeOverFloor() {
-    test::SceneBuilder builder;
-    addSquare(builder, vec3(0), vec3(1, 0, 0), vec3(0, 0, -1));
-    addSquare(builder, vec3(-20, 4, 0), vec3(1, 0, 0), vec3(0, 0, -1));
-    Scene scene = builder.finish();
-    scene.lights = {lamp()};
-    return scene;
-}
-
-/// Sees x and z in +-3.5 of the floor, from below the half-plane.
-Camera lookingDown() {
-    return cameraAt({0, 3.5f, 0}, {0, -1, 0}, {0, 0, -1});
-}
-
 TEST_F(Kbm10Error, FlagsThePenumbraOfAStraightEdge) {
     // The penumbra is L h / (H - h) = 4/3 wide: |x| <= 2/3.
-    const std::vector<vec2> error = errorOf(edgeOverFloor(), lookingDown());
+    const std::vector<vec2> error = errorOf(edgeOverFloor(lampOf()), lookingDown());
     const float pixel = 7.0f / 128;
     const float texel = 2 * 10.0f / kMapSize;
     for (uint i = 0; i < error.size(); ++i) {
@@ -100,7 +56,7 @@ TEST_F(Kbm10Error, FlagsThePenumbraOfAStraightEdge) {
 }
 
 TEST_F(Kbm10Error, FlagsTheEdgeOfAMapAroundAPointLight) {
-    Scene scene = edgeOverFloor();
+    Scene scene = edgeOverFloor(lampOf());
     scene.lights[0].kind = kLightPoint;
     const std::vector<vec2> error = errorOf(scene, lookingDown(), 1, 0);
     const float pixel = 7.0f / 128;
@@ -118,8 +74,8 @@ TEST_F(Kbm10Error, FlagsTheEdgeOfAMapAroundAPointLight) {
 }
 
 TEST_F(Kbm10Error, DilatesByPixelsToEachSide) {
-    const std::vector<vec2> narrow = errorOf(edgeOverFloor(), lookingDown(), 5, 0);
-    const std::vector<vec2> wide = errorOf(edgeOverFloor(), lookingDown(), 5, 3);
+    const std::vector<vec2> narrow = errorOf(edgeOverFloor(lampOf()), lookingDown(), 5, 0);
+    const std::vector<vec2> wide = errorOf(edgeOverFloor(lampOf()), lookingDown(), 5, 3);
     // Along the middle row.
     uint narrow_count = 0, wide_count = 0;
     for (uint x = 0; x < 128; ++x) {
@@ -130,16 +86,16 @@ TEST_F(Kbm10Error, DilatesByPixelsToEachSide) {
 }
 
 TEST_F(Kbm10Error, FlagsTheUmbraWhenAsked) {
-    const std::vector<vec2> error = errorOf(edgeOverFloor(), lookingDown(), 5, 0, true);
+    const std::vector<vec2> error = errorOf(edgeOverFloor(lampOf()), lookingDown(), 5, 0, true);
     EXPECT_EQ(error[64 * 128 + 10].x, 1.0f) << "in the umbra";
     EXPECT_EQ(error[64 * 128 + 117].x, 0.0f) << "in the light";
 }
 
 TEST_F(Kbm10Error, IsNothingOnALitFloor) {
-    test::SceneBuilder builder;
+    SceneBuilder builder;
     addSquare(builder, vec3(0), vec3(1, 0, 0), vec3(0, 0, -1));
     Scene scene = builder.finish();
-    scene.lights = {lamp()};
+    scene.lights = {lampOf()};
     for (const vec2& error : errorOf(scene, lookingDown()))
         EXPECT_EQ(error, vec2(0.0f));
 }
@@ -151,10 +107,10 @@ TEST_F(Kbm10Error, IsNothingOnAReceiverSlantedBy80Degrees) {
         const vec3 down_the_slope(std::cos(angle) * std::cos(turn), -std::sin(angle),
                                   std::cos(angle) * std::sin(turn));
         const vec3 across(-std::sin(turn), 0, std::cos(turn));
-        test::SceneBuilder builder;
+        SceneBuilder builder;
         addSquare(builder, vec3(0), down_the_slope, across);
         Scene scene = builder.finish();
-        scene.lights = {lamp()};
+        scene.lights = {lampOf()};
         const vec3 normal = glm::cross(across, down_the_slope);
         const vec3 seen_from = normal.y > 0 ? normal : -normal;
         const Camera camera = cameraAt(3.0f * seen_from, -seen_from, across);
@@ -168,7 +124,7 @@ TEST_F(Kbm10Error, IsNothingOnAReceiverSlantedBy80Degrees) {
 TEST_F(Kbm10Error, IsNothingWhereNoLightCanArrive) {
     // From below, the floor turns its back to the lamp; the half-plane's shadow does not matter.
     const Camera camera = cameraAt({0, -3.5f, 0}, {0, 1, 0}, {0, 0, -1});
-    for (const vec2& error : errorOf(edgeOverFloor(), camera))
+    for (const vec2& error : errorOf(edgeOverFloor(lampOf()), camera))
         EXPECT_EQ(error, vec2(0.0f));
 }
 
