@@ -17,6 +17,7 @@ void registerPasses(PassRegistry& registry) {
     registry.add(reflectionErrorPass());
     registry.add(requestPass());
     registry.add(selfOcclusionPass());
+    registry.add(shadowErrorPass());
     registry.add(shadowMapPass());
     registry.add(shadowRangePass());
     registry.add(sortPass());

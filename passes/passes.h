@@ -19,6 +19,7 @@ namespace hone {
 [[nodiscard]] PassType reflectionErrorPass();
 [[nodiscard]] PassType requestPass();
 [[nodiscard]] PassType selfOcclusionPass();
+[[nodiscard]] PassType shadowErrorPass();
 [[nodiscard]] PassType shadowMapPass();
 [[nodiscard]] PassType shadowRangePass();
 [[nodiscard]] PassType sortPass();

@@ -68,11 +68,13 @@ struct ShadowLookup {
     vec2 slope;  ///< how that changes over the surface's plane, by column and row
 };
 
-ShadowLookup shadowLookup(uint light_index, uint k, vec3 position, vec3 normal) {
+/// On the face of a cube that `direction` falls on, or another that it is in front of; of
+/// directional lights on their only face, 0.
+ShadowLookup shadowLookup(uint light_index, uint k, uint face, vec3 position, vec3 normal) {
     Light light = scene_lights[light_index];
     uint size = uint(shadow_maps[0]);
     ShadowLookup result;
-    result.first = shadowMapFirst(light_index, k);
+    result.first = shadowMapFirst(light_index, k) + face * size * size;
     result.is_box = light.kind == kLightDirectional;
     if (result.is_box) {
         vec3 center = vec3(shadow_maps[2], shadow_maps[3], shadow_maps[4]);
@@ -91,38 +93,47 @@ ShadowLookup shadowLookup(uint light_index, uint k, vec3 position, vec3 normal) 
         return result;
     }
     vec3 direction = position - lightPoint(light, k);
-    uint face = cubeFace(direction);
     vec3 coordinates = cubeCoordinates(face, direction);
     vec3 leaning = cubeCoordinates(face, normal);
     result.depth = coordinates.z;
     result.position = cubePosition(coordinates, size);
-    result.first += face * size * size;
     result.texel = 2.0f * result.depth / float(size);
     result.plane = 1.0f / result.depth;
     result.slope = vec2(leaning.x, -leaning.y) * (2.0f / (float(size) * dot(normal, direction)));
     return result;
 }
 
-/// 1 if the texel at (column, row) leaves the surface's plane lit there, else 0. Outside the face
-/// counts as its border. The plane is taken to the texel's centre, so a slanted surface does not
-/// shadow itself, and little is left to a bias that would let light through.
-uint shadowTest(ShadowLookup lookup, int column, int row) {
+/// The face of the map of a light's point k that a position falls on.
+uint shadowFace(Light light, uint k, vec3 position) {
+    return light.kind == kLightDirectional ? 0u : cubeFace(position - lightPoint(light, k));
+}
+
+/// Whether the texel at (column, row) is before the surface's plane by more than `bias`, in metres
+/// along the face's axis. Outside the face counts as its border. The plane is taken to the texel's
+/// centre, so a slanted surface does not shadow itself.
+bool shadowBlocks(ShadowLookup lookup, int column, int row, float bias) {
     int size = int(shadow_maps[0]);
     int x = clamp(column, 0, size - 1);
     int y = clamp(row, 0, size - 1);
     float plane = lookup.plane + lookup.slope.x * (float(x) + 0.5f - lookup.position.x) +
                   lookup.slope.y * (float(y) + 0.5f - lookup.position.y);
-    float bias = 0.25f * lookup.texel + 1e-4f * lookup.depth;
     float lit_to = shadow_maps[lookup.first + uint(y) * uint(size) + uint(x)] + bias;
     // Where the light grazes the plane, it runs away from one texel to the next.
     if (lit_to >= lookup.depth + 16.0f * lookup.texel)
-        return 1u;
-    return (lookup.is_box ? plane <= lit_to : plane * lit_to >= 1.0f) ? 1u : 0u;
+        return false;
+    return lookup.is_box ? plane > lit_to : plane * lit_to < 1.0f;
 }
 
-/// The surface in the map of the light's point k, moved off by up to half a texel where the light
-/// grazes it: beside it, a curved surface rises above its plane.
-ShadowLookup shadowReceiver(uint light_index, uint k, Surface surface) {
+/// 1 if the texel leaves the surface lit there, else 0. Little is left to a bias that would let
+/// light through.
+uint shadowTest(ShadowLookup lookup, int column, int row) {
+    float bias = 0.25f * lookup.texel + 1e-4f * lookup.depth;
+    return shadowBlocks(lookup, column, row, bias) ? 0u : 1u;
+}
+
+/// A surface's position as the map of the light's point k shall see it, moved off by up to half a
+/// texel where the light grazes it: beside it, a curved surface rises above its plane.
+vec3 shadowPosition(uint light_index, uint k, Surface surface) {
     Light light = scene_lights[light_index];
     vec3 point = lightPoint(light, k);
     LightSample to_light = lightFrom(light, surface.position, point);
@@ -132,12 +143,21 @@ ShadowLookup shadowReceiver(uint light_index, uint k, Surface surface) {
         2.0f / shadow_maps[0] *
         (light.kind == kLightDirectional ? shadow_maps[5] : max(away.x, max(away.y, away.z)));
     float offset = kShadowOffset * sqrt(1.0f - cosine * cosine) * texel;
-    return shadowLookup(light_index, k, surface.position + offset * surface.geometric_normal,
-                        surface.geometric_normal);
+    return surface.position + offset * surface.geometric_normal;
 }
 
-/// The hard shadow seen from the light's point k: 1 lit, 0 in shadow; the nearest texel decides.
+ShadowLookup shadowReceiver(uint light_index, uint k, Surface surface) {
+    vec3 position = shadowPosition(light_index, k, surface);
+    uint face = shadowFace(scene_lights[light_index], k, position);
+    return shadowLookup(light_index, k, face, position, surface.geometric_normal);
+}
+
+/// What the nearest texel says: 1 lit, 0 in shadow.
+uint shadowTestNearest(ShadowLookup lookup) {
+    return shadowTest(lookup, int(floor(lookup.position.x)), int(floor(lookup.position.y)));
+}
+
+/// The hard shadow seen from the light's point k: 1 lit, 0 in shadow.
 float shadowMapVisibility(uint light_index, uint k, Surface surface) {
-    ShadowLookup lookup = shadowReceiver(light_index, k, surface);
-    return float(shadowTest(lookup, int(floor(lookup.position.x)), int(floor(lookup.position.y))));
+    return float(shadowTestNearest(shadowReceiver(light_index, k, surface)));
 }

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hone/core/scene/texture.glsl.h"
+
+#include "hone/core/scene/surface.glsl.h"
+
+#include "hone/core/scene/camera.glsl.h"
+
+#include "hone/passes/shading/shading.glsl.h"
+
+#include "hone/passes/shading/cube.glsl.h"
+
+#include "hone/passes/shading/shadow_map.glsl.h"
+
+#include "hone/passes/shading/shadow_range.glsl.h"
+
+#include "hone/passes/error/shadow/light_cone.glsl.h"
+
+#include "hone/passes/error/shadow/light_mask.glsl.h"
+
+struct Params {
+    Camera camera;
+    uvec2 extent;
+    float near;
+    uint iterations;
+    uint certified;
+    uint retest;
+    uint detail; ///< 0: no mask
+};
+HONE_PARAMS(Params)
+HONE_READ(Hit, gbuffer)
+HONE_WRITE(vec2, error)
+
+/// What a face of the map says about the segments from a surface to a light.
+HONE_CONST uint kFree = 0u;    ///< nothing in it blocks any
+HONE_CONST uint kBlocked = 1u; ///< it blocks all
+HONE_CONST uint kUnclear = 2u;
+
+/// Of a depth: what is that near to the surface's plane is the surface.
+HONE_CONST float kBias = 2e-5f;
+
+HONE_CONST uint kMostBlocks = 256u; ///< looked at below one
+HONE_CONST uint kRetestBlocks = 8u; ///< along an area's edge, where four blocks were too wide
+
+/// The texels of a block of cells.
+Area blockArea(uint level, uvec2 cell) {
+    Area area;
+    area.low = vec2(float(2u * cell.x), float(2u * cell.y));
+    area.high = area.low + vec2(float(2u << level));
+    return area;
+}
+
+Area texelArea(uint x, uint y) {
+    Area area;
+    area.low = vec2(float(x), float(y));
+    area.high = area.low + vec2(1.0f);
+    return area;
+}
+
+/// Least and greatest nearness of the tip's plane over a square area.
+vec2 planeRange(LightCone cone, Area area) {
+    float middle = planeNearness(cone.tip, 0.5f * (area.low + area.high));
+    float spread =
+        0.5f * (abs(cone.tip.slope.x) + abs(cone.tip.slope.y)) * (area.high.x - area.low.x);
+    return vec2(middle - spread, middle + spread);
+}
+
+/// Whether a texel is between the cone's tip and the light, above the tip's plane.
+bool isBlocker(LightCone cone, uint x, uint y, float nearness) {
+    Area center;
+    center.low = vec2(float(x) + 0.5f, float(y) + 0.5f);
+    center.high = center.low;
+    return overlap(center, coneArea(cone, nearness)) &&
+           shadowBlocks(cone.tip, int(x), int(y), kBias * cone.tip.depth);
+}
+
+float texelNearness(LightCone cone, uint x, uint y) {
+    uint size = uint(shadow_maps[0]);
+    return nearnessOf(cone.tip, shadow_maps[cone.tip.first + y * size + x]);
+}
+
+/// Looks at a block and, where that decides nothing, at its quarters, to the texels: whether
+/// anything blocks segments of the cone. Ends where blocks are as small as what the mask resolves,
+/// as seen there.
+bool retestBlock(LightCone cone, uint ranges_first, uint start_level, uvec2 start_cell) {
+    uint cells = shadow_ranges[0].x;
+    uint stack[48];
+    stack[0] = start_level << 28u | start_cell.y << 14u | start_cell.x;
+    uint count = 1u;
+    for (uint looked = 0u; count > 0u; ++looked) {
+        if (looked == kMostBlocks)
+            return true;
+        uint top = stack[--count];
+        uint level = top >> 28u;
+        uvec2 cell = uvec2(top & 0x3fffu, top >> 14u & 0x3fffu);
+        float nearness = nearnessOf(cone.tip, blockRange(ranges_first, level, cell).nearest);
+        Area area = blockArea(level, cell);
+        Area section = coneArea(cone, nearness);
+        if (!overlap(area, section) || nearness <= planeRange(cone, area).x)
+            continue;
+        if (level == 0u) {
+            uint edge = uint(shadow_maps[0]) - 1u;
+            for (uint i = 0u; i < 4u; ++i) {
+                uint x = min(2u * cell.x + (i & 1u), edge);
+                uint y = min(2u * cell.y + (i >> 1u), edge);
+                if (isBlocker(cone, x, y, texelNearness(cone, x, y)))
+                    return true;
+            }
+            continue;
+        }
+        float wide = min(section.high.x - section.low.x, section.high.y - section.low.y) -
+                     2.0f * kConeMargin;
+        if (float(kMaskEdge) * (area.high.x - area.low.x) <= wide)
+            return true;
+        uint step_size = 1u << (level - 1u);
+        for (uint i = 0u; i < 4u; ++i) {
+            uvec2 quarter = uvec2(cell.x + (i & 1u) * step_size, cell.y + (i >> 1u) * step_size);
+            if (quarter.x < cells && quarter.y < cells)
+                stack[count++] = (level - 1u) << 28u | quarter.y << 14u | quarter.x;
+        }
+    }
+    return false;
+}
+
+/// The level at which an area spans at most `most` blocks more than one along each edge.
+uint levelOf(uvec2 low, uvec2 high, uint most) {
+    uint level = 0u;
+    while (level < shadow_ranges[0].y && ((high.x >> level) - (low.x >> level) > most ||
+                                          (high.y >> level) - (low.y >> level) > most))
+        ++level;
+    return level;
+}
+
+/// retestBlock for the blocks that hold the cells from low to high, few of them.
+bool retestArea(LightCone cone, uint ranges_first, uvec2 low, uvec2 high) {
+    uint level = levelOf(low, high, 1u);
+    for (uint y = low.y >> level; y <= high.y >> level; ++y)
+        for (uint x = low.x >> level; x <= high.x >> level; ++x)
+            if (retestBlock(cone, ranges_first, level, uvec2(x << level, y << level)))
+                return true;
+    return false;
+}
+
+/// Hides what a block hides: where it is not wholly above the tip's plane, or not of one surface,
+/// as its middle does.
+void hideBlock(LightCone cone, MaskView view, uint ranges_first, uint level, uvec2 cell) {
+    DepthRange range = blockRange(ranges_first, level, cell);
+    float most = nearnessOf(cone.tip, range.nearest);
+    Area area = blockArea(level, cell);
+    vec2 plane = planeRange(cone, area);
+    if (most <= plane.x || !overlap(area, coneArea(cone, most)))
+        return;
+    float least = nearnessOf(cone.tip, range.farthest);
+    float nearness = 0.5f * (most + least);
+    if (least <= plane.y || range.is_broken) {
+        uint edge = uint(shadow_maps[0]) - 1u;
+        uint x = min(2u * cell.x + (1u << level), edge);
+        uint y = min(2u * cell.y + (1u << level), edge);
+        if (!shadowBlocks(cone.tip, int(x), int(y), kBias * cone.tip.depth))
+            return;
+        nearness = texelNearness(cone, x, y);
+    }
+    hideArea(cone, view, area, nearness);
+}
+
+/// Hides what the cells from low to high hide of the light, in blocks. Around the tip, where the
+/// segments are close together, blocks get smaller, down to texels.
+void hideCells(LightCone cone, MaskView view, uint ranges_first, uvec2 low, uvec2 high) {
+    uint edge = uint(shadow_maps[0]) - 1u;
+    vec2 tip = clamp(0.5f * cone.tip.position, vec2(0.0f), vec2(float(shadow_ranges[0].x - 1u)));
+    uvec2 around = uvec2(uint(tip.x), uint(tip.y));
+    uint reach = params.detail / 8u; // of smaller blocks, in blocks
+    for (uint level = levelOf(low, high, params.detail); level > 0u; --level) {
+        uvec2 inner = uvec2(around.x >> level, around.y >> level);
+        for (uint y = low.y >> level; y <= high.y >> level; ++y)
+            for (uint x = low.x >> level; x <= high.x >> level; ++x)
+                if (x + reach < inner.x || x > inner.x + reach || y + reach < inner.y ||
+                    y > inner.y + reach)
+                    hideBlock(cone, view, ranges_first, level, uvec2(x << level, y << level));
+        uvec2 from =
+            uvec2((max(inner.x, reach) - reach) << level, (max(inner.y, reach) - reach) << level);
+        uvec2 to =
+            uvec2(((inner.x + reach + 1u) << level) - 1u, ((inner.y + reach + 1u) << level) - 1u);
+        low = max(low, from);
+        high = min(high, to);
+        if (low.x > high.x || low.y > high.y)
+            return;
+    }
+    uvec2 last = uvec2(min(2u * high.x + 1u, edge), min(2u * high.y + 1u, edge));
+    for (uint y = 2u * low.y; y <= last.y; ++y)
+        for (uint x = 2u * low.x; x <= last.x; ++x) {
+            float nearness = texelNearness(cone, x, y);
+            if (isBlocker(cone, x, y, nearness))
+                hideArea(cone, view, texelArea(x, y), nearness);
+        }
+}
+
+/// Whether what is in an area hides all of the light (umbra). Certified: it is one surface, which
+/// each segment must cross, for it begins behind and ends before it.
+bool isAcross(LightCone cone, DepthRange range) {
+    // What the map's texels cannot tell from the surface hides nothing for certain.
+    float bias = kConeMargin * cone.tip.texel + 1e-4f * cone.tip.depth;
+    if (range.farthest >= cone.tip.depth - bias)
+        return false;
+    return params.certified == 0u || (!range.is_broken && range.nearest > cone.reach);
+}
+
+/// The test of Guennebaud et al. (2006, section 3.2) on one face: depths of the area that the
+/// segments cross say up to where they are free, which makes the area smaller, and so on.
+uint searchFace(LightCone cone, MaskView view, uint ranges_first, float nearest, bool is_own) {
+    float size = shadow_maps[0];
+    float lit_from = nearnessOf(cone.tip, cone.tip.depth - kBias * cone.tip.depth);
+    float start = params.near > 0.0f ? params.near : nearest;
+    Area area = coneArea(cone, nearnessOf(cone.tip, start));
+    DepthRange range;
+    uvec2 low;
+    uvec2 high;
+    bool is_inside = is_own;
+    for (uint i = 0u; true; ++i) {
+        if (area.high.x < 0.0f || area.high.y < 0.0f || area.low.x >= size || area.low.y >= size)
+            return kFree;
+        is_inside = is_own && area.low.x >= 0.0f && area.low.y >= 0.0f && area.high.x < size &&
+                    area.high.y < size;
+        vec2 from = clamp(area.low, vec2(0.0f), vec2(size - 1.0f));
+        vec2 to = clamp(area.high, vec2(0.0f), vec2(size - 1.0f));
+        low = uvec2(uint(from.x) >> 1u, uint(from.y) >> 1u);
+        high = uvec2(uint(to.x) >> 1u, uint(to.y) >> 1u);
+        range = areaRange(ranges_first, low, high, 1u);
+        float most = nearnessOf(cone.tip, max(range.nearest, params.near));
+        if (most <= lit_from)
+            return kFree;
+        Area next = coneArea(cone, most);
+        if (i == params.iterations || next.high.x - next.low.x >= area.high.x - area.low.x)
+            break;
+        area = next;
+    }
+    if (is_inside && isAcross(cone, range))
+        return kBlocked;
+    if (params.retest != 0u) {
+        if (is_inside && isAcross(cone, areaRange(ranges_first, low, high, kRetestBlocks)))
+            return kBlocked;
+        if (!retestArea(cone, ranges_first, low, high))
+            return kFree;
+    }
+    if (params.detail > 0u)
+        hideCells(cone, view, ranges_first, low, high);
+    return kUnclear;
+}
+
+/// Of a light without extent: shadow tests of the four nearest texels, by how near they are.
+float filteredShadow(ShadowLookup lookup) {
+    float x = lookup.position.x - 0.5f;
+    float y = lookup.position.y - 0.5f;
+    float column = floor(x);
+    float row = floor(y);
+    float lit = 0.0f;
+    for (int i = 0; i < 4; ++i) {
+        float right = (i & 1) == 0 ? 1.0f - (x - column) : x - column;
+        float below = i < 2 ? 1.0f - (y - row) : y - row;
+        lit +=
+            right * below * float(shadowTest(lookup, int(column) + (i & 1), int(row) + (i >> 1)));
+    }
+    return lit;
+}
+
+/// What a light that is less than wholly seen, or wholly hidden, may add or lack.
+struct ShadowEstimate {
+    float drawn;   ///< what the raster image shows: 1 lit, 0 in shadow
+    float visible; ///< the share of the light that is seen, a guess where not certain
+    bool is_certain;
+};
+
+ShadowEstimate estimateShadow(uint light_index, Surface surface) {
+    Light light = scene_lights[light_index];
+    vec3 position = surface.position;
+    LightExtent extent = lightExtent(light, position);
+    uint own_face = shadowFace(light, 0u, position);
+    uint first_face = rangeFirstFace(light_index);
+    uint faces = rangeFaces(light);
+    vec3 direction = position - light.position;
+    ShadowLookup own = shadowLookup(light_index, 0u, own_face, position, surface.geometric_normal);
+    ShadowEstimate result;
+    result.drawn = shadowMapVisibility(light_index, 0u, surface);
+    clearMask();
+
+    bool is_free = true;
+    bool is_blocked = false;
+    bool is_inside_light = false;
+    MaskFrame frame = maskFrame(light, extent, own_face, own);
+    for (uint face = 0u; face < faces && !is_blocked; ++face) {
+        float depth = own.is_box ? own.depth : cubeCoordinates(face, direction).z;
+        vec2 of_face = rangeOfFace(first_face + face);
+        if (of_face.x >= max(depth, of_face.y))
+            continue; // all segments stay in front of what it holds
+        if (depth <= of_face.y) {
+            is_inside_light = true; // no cone: something is within the light's own reach
+            continue;
+        }
+        ShadowLookup tip = own;
+        if (face != own_face)
+            tip = shadowLookup(light_index, 0u, face, position, surface.geometric_normal);
+        LightCone cone = lightCone(light, extent, face, tip);
+        MaskView view = maskView(light, frame, face, tip);
+        uint ranges_first = rangeLevelsFirst(first_face + face);
+        uint found = searchFace(cone, view, ranges_first, of_face.x, face == own_face);
+        is_blocked = found == kBlocked;
+        is_free = is_free && found == kFree;
+    }
+    result.visible = is_blocked ? 0.0f : 1.0f;
+    result.is_certain = is_blocked || (is_free && !is_inside_light);
+
+    // Where part of the light is below the horizon, the surface itself hides it.
+    vec3 normal = surface.geometric_normal;
+    float height =
+        light.kind == kLightDirectional ? -dot(normal, light.direction) : -dot(normal, direction);
+    float dip = abs(dot(normal, extent.half_u)) + abs(dot(normal, extent.half_v));
+    bool is_cut = height <= dip && hasExtent(light);
+    result.is_certain = (result.is_certain && !is_cut && result.drawn == result.visible);
+    if (result.is_certain || params.detail == 0u)
+        return result;
+
+    if (!hasExtent(light)) {
+        result.visible = filteredShadow(own);
+        return result;
+    }
+    if (is_cut)
+        hideBelow(height, dot(normal, frame.half_u), dot(normal, frame.half_v));
+    if (!is_blocked)
+        result.visible = visibleShare(frame, extent.is_round);
+    return result;
+}
+
+void kernel(uint index) {
+    error[index] = vec2(0.0f);
+    Hit hit = gbuffer[index];
+    if (hit.instance == kNone)
+        return;
+    Ray ray = cameraRay(params.camera, params.extent, pixelCenter(index, params.extent));
+    Surface surface = surfaceAt(ray, hit);
+    Material material = scene_materials[surface.material];
+    vec3 base = material.base_color;
+    if (params.detail > 0u) {
+        float footprint = surface.t * 2.0f * params.camera.tan_half_fov_y / float(params.extent.y);
+        base = vec3(baseColor(surface, ray.direction, footprint));
+    }
+    vec3 albedo = diffuseAlbedo(material, base);
+    vec2 found = vec2(0.0f);
+    uint light_count = uint(scene_lights.length());
+    for (uint i = 0u; i < light_count; ++i) {
+        if (scene_lights[i].shadowless != 0u)
+            continue;
+        vec3 direct = directLight(scene_lights[i], surface, albedo);
+        float unshadowed = max(direct.x, max(direct.y, direct.z));
+        if (unshadowed <= 0.0f)
+            continue;
+        ShadowEstimate shadow = estimateShadow(i, surface);
+        if (shadow.is_certain)
+            continue;
+        if (params.detail == 0u) {
+            found = vec2(1.0f); // 1 - prod(1 - E)
+            break;
+        }
+        // What is unclear is never quite certain: half a cell of the mask.
+        float share = max(abs(shadow.visible - shadow.drawn), 0.5f / 256.0f);
+        found += unshadowed * vec2(share, max(shadow.drawn, 1.0f - shadow.drawn));
+    }
+    bool is_finite = !isnan(found.x) && !isinf(found.y);
+    error[index] = is_finite ? found : vec2(1.0f);
+}
