@@ -148,6 +148,19 @@ TEST_P(Refinement, BlursNothingForAPinhole) {
     EXPECT_TRUE(areSameBits(raster(*sir), raster(*dof)));
 }
 
+TEST_P(Refinement, EndsAtTheTracedImageWhateverFindsSoftShadows) {
+    const std::unique_ptr<Executor> prt = load("prt");
+    prt->setParameter("samples", "2");
+    const std::vector<vec3> traced = colorOf(*prt);
+    for (const char* graph : {"soft_shadows", "kbm10"}) {
+        const std::unique_ptr<Executor> refined = load(graph);
+        refined->setParameter("samples", "2");
+        refined->setParameter("batch", "100");
+        refined->setParameter("scope", "all");
+        EXPECT_TRUE(areSameBits(colorOf(*refined), traced)) << graph;
+    }
+}
+
 TEST_P(Refinement, TracesTheSameImageInBatchesOfAnySize) {
     const std::unique_ptr<Executor> prt = load("prt");
     const std::vector<vec3> at_once = colorOf(*prt);
