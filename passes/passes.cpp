@@ -8,10 +8,10 @@ void registerPasses(PassRegistry& registry) {
     registry.add(blendPass());
     registry.add(combinePass());
     registry.add(depthOfFieldPass());
-    registry.add(differencePass());
     registry.add(dofErrorPass());
     registry.add(environmentProbePass());
     registry.add(kbm10ErrorPass());
+    registry.add(measureErrorPass());
     registry.add(propagateErrorPass());
     registry.add(rasterPass());
     registry.add(reflectionErrorPass());

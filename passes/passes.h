@@ -10,10 +10,10 @@ namespace hone {
 [[nodiscard]] PassType blendPass();
 [[nodiscard]] PassType combinePass();
 [[nodiscard]] PassType depthOfFieldPass();
-[[nodiscard]] PassType differencePass();
 [[nodiscard]] PassType dofErrorPass();
 [[nodiscard]] PassType environmentProbePass();
 [[nodiscard]] PassType kbm10ErrorPass();
+[[nodiscard]] PassType measureErrorPass();
 [[nodiscard]] PassType propagateErrorPass();
 [[nodiscard]] PassType rasterPass();
 [[nodiscard]] PassType reflectionErrorPass();

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/passes/shading/srgb.glsl.h"
+#include "hone/passes/shading/display.glsl.h"
 
 struct Params {
     uint space;
+    uint norm;
+    float exposure;
+    uint curve;
     float scale;
 };
 HONE_PARAMS(Params)
@@ -12,9 +15,10 @@ HONE_WRITE(vec2, error)
 HONE_WRITE(vec3, display)
 
 HONE_CONST uint kDisplay = 0u;
+HONE_CONST uint kMeanSquare = 1u;
 
 float shown(float radiance) {
-    return params.space == kDisplay ? encodeSrgb(clamp(radiance, 0.0f, 1.0f)) : radiance;
+    return params.space == kDisplay ? displayed(radiance, params.exposure, params.curve) : radiance;
 }
 
 bool isFinite(float x) {
@@ -49,8 +53,9 @@ vec3 temperature(float x) {
 void kernel(uint index) {
     vec3 a = image[index];
     vec3 b = reference[index];
-    float difference =
-        max(max(differenceOf(a.x, b.x), differenceOf(a.y, b.y)), differenceOf(a.z, b.z));
-    error[index] = vec2(difference, difference);
-    display[index] = temperature(difference * params.scale);
+    vec3 d = vec3(differenceOf(a.x, b.x), differenceOf(a.y, b.y), differenceOf(a.z, b.z));
+    float real = params.norm == kMeanSquare ? (d.x * d.x + d.y * d.y + d.z * d.z) * (1.0f / 3.0f)
+                                            : max(max(d.x, d.y), d.z);
+    error[index] = vec2(real, real);
+    display[index] = temperature(real * params.scale);
 }
