@@ -5,6 +5,7 @@
 #include "hone/backends/embree/embree_backend.h"
 #include "hone/backends/host/host_device.h"
 #include "hone/core/graph/executor.h"
+#include "hone/core/image/image.h"
 #include "hone/passes/passes.h"
 #include "hone/tests/support/vulkan_fixture.h"
 
@@ -187,6 +188,29 @@ TEST_P(Refinement, ShowsTheSameImageForBothStrategiesAtEveryStop) {
         }
         EXPECT_TRUE(areSameBits(images[0], images[1])) << "after " << iterations << " batches";
     }
+}
+
+// The first batch of the oracle's order leaves the least squared error that so many pixels can.
+TEST_P(Refinement, OracleTracesTheWorstPixelsFirst) {
+    constexpr std::size_t kBatch = 500;
+    const std::vector<vec3> traced = colorOf(*load("prt"));
+    const std::unique_ptr<Executor> oracle = load("oracle");
+    oracle->setParameter("batch", std::to_string(kBatch));
+    EXPECT_TRUE(areSameBits(colorOf(*oracle), traced));
+
+    const std::span<vec3> raster = oracle->output("raster").as<vec3>();
+    const std::span<uint> rounds = oracle->output("round").as<uint>();
+    const std::vector<vec3> shown = toDisplay({kExtent, {raster.begin(), raster.end()}}).pixels;
+    const std::vector<vec3> aimed = toDisplay({kExtent, traced}).pixels;
+    float best_left = 0, worst_taken = 1e30f;
+    for (std::size_t pixel = 0; pixel < shown.size(); ++pixel) {
+        const vec3 difference = shown[pixel] - aimed[pixel];
+        const float error = dot(difference, difference);
+        float& side = rounds[pixel] == 1 ? worst_taken : best_left;
+        side = rounds[pixel] == 1 ? std::min(side, error) : std::max(side, error);
+    }
+    // The pass sums in another order than this test.
+    EXPECT_GE(worst_taken * (1 + 1e-4f), best_left - 1e-6f);
 }
 
 // The names of builtinScenes(), which are known only while the program runs.
