@@ -189,6 +189,14 @@ double Convergence::costUntil(double left) const {
     return 1;
 }
 
+double Convergence::leftAt(double cost) const {
+    const auto after = std::ranges::upper_bound(curve, cost, {}, &Point::cost);
+    if (after == curve.begin() || after == curve.end())
+        return curve.empty() ? kNan : after == curve.end() ? curve.back().left : curve.front().left;
+    const Point& a = *(after - 1);
+    return a.left + (after->left - a.left) * (cost - a.cost) / (after->cost - a.cost);
+}
+
 Convergence converge(std::span<const float> squared_error, std::span<const float> score,
                      std::span<const float> cost) {
     HONE_ASSERT(squared_error.size() == score.size(), "one score a pixel");

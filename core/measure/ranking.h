@@ -69,6 +69,8 @@ struct Convergence {
 
     /// The share of the cost at which `left` of the squared error is left.
     [[nodiscard]] double costUntil(double left) const;
+    /// The share of the squared error left at a share of the cost in [0,1].
+    [[nodiscard]] double leftAt(double cost) const;
 };
 
 /// Refines by descending score; equal scores in random order, so the curve is straight through a
