@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <map>
 #include <new>
 
 #include <unistd.h>
@@ -62,6 +63,36 @@ void addOverrides(CLI::App* app, Overrides& overrides) {
            "a graph's parameter (batch=4096) or a pass's (refine.trace.max_depth=1); repeatable")
         ->type_name("NAME=VALUE")
         ->take_all();
+}
+
+/// What measure, fit and bench figure10 have in common.
+void addMeasureOptions(CLI::App* app, MeasureArguments& arguments) {
+    app->add_option("--scene", arguments.scene, "*.scene.json, .gltf, .glb or builtin:NAME")
+        ->capture_default_str();
+    addSize(app, "--size", arguments.size, "size of each view (400x300)");
+    app->add_option("--views", arguments.views,
+                    "how many: the scene's cameras, then those turned and moved")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    addOverrides(app, arguments.overrides);
+    app->add_option("--truth", arguments.truth, "the graph whose output color is the truth")
+        ->capture_default_str();
+    app->add_option("--truth-samples", arguments.truth_samples,
+                    "samples of the truth (as the graph's); also measures its noise")
+        ->check(CLI::PositiveNumber);
+    app->add_option(
+           "--effect", arguments.effect,
+           "what raster image and truth may differ by: all, reflection, shadow, dof, or none "
+           "(all)")
+        ->transform(CLI::CheckedTransformer(
+            std::map<std::string, MeasuredEffect>{{"all", MeasuredEffect::kAll},
+                                                  {"reflection", MeasuredEffect::kReflection},
+                                                  {"shadow", MeasuredEffect::kShadow},
+                                                  {"dof", MeasuredEffect::kDof},
+                                                  {"none", MeasuredEffect::kNone}}));
+    app->add_option("--device", arguments.device, "Vulkan device: part of its name, or its index");
+    app->add_option("--seed", arguments.seed, "random numbers' seed (0)");
+    app->add_flag("--json", arguments.json, "one JSON object on standard output");
 }
 
 /// Runs `command` and turns what it throws into one message and an exit code.
@@ -321,6 +352,17 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     tracers_app->add_flag("--json", tracers_arguments.json, "one JSON object on standard output");
     chosen(tracers_app, [&] { return benchTracers(tracers_arguments, console); });
 
+    MeasureArguments measure_arguments;
+    CLI::App* measure_app = app.add_subcommand(
+        "measure", "how good a graph's error metrics are against the ray-traced truth");
+    measure_app->add_option("graph", measure_arguments.graph, "graph file or shipped graph")
+        ->required();
+    addMeasureOptions(measure_app, measure_arguments);
+    measure_app->add_option("-o,--output", measure_arguments.output_directory,
+                            "folder for tables and pictures (none)");
+    measure_app->add_flag("--markdown", measure_arguments.markdown, "the table for a document");
+    chosen(measure_app, [&] { return measure(measure_arguments, console); });
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {
@@ -329,7 +371,7 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     for (SessionArguments* arguments : std::initializer_list<SessionArguments*>{
              &demo_arguments, &render_arguments, &check_arguments, &passes_arguments,
              &compare_arguments, &doctor_arguments, &replay_arguments, &selftest_arguments,
-             &bench_arguments, &table1_arguments, &tracers_arguments})
+             &bench_arguments, &table1_arguments, &tracers_arguments, &measure_arguments})
         arguments->plugins = plugins;
     if (verbose)
         logger().set_level(spdlog::level::info);

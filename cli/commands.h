@@ -124,7 +124,7 @@ struct BenchTable1Arguments : SessionArguments {
     std::string scene;
     std::string camera; ///< whose field of view and lens the chosen views take
     std::vector<uvec2> sizes{{800, 600}, {1024, 768}, {1920, 1080}};
-    std::vector<uint> samples{1, 16}; ///< 1: as the paper did it, lights are points
+    std::vector<uint> samples{1, 16};  ///< 1: as the paper did it, lights are points
     std::string visibility = "raster"; ///< who says what the raster image sees, or "rays"
     int repeats = 5;
     bool json = false;
@@ -139,6 +139,32 @@ struct BenchTracersArguments : SessionArguments {
     bool json = false;
 };
 
+/// By what raster image and truth may differ while metrics are judged.
+enum class MeasuredEffect : std::uint8_t { kAll, kReflection, kShadow, kDof, kNone };
+
+struct MeasureArguments : SessionArguments {
+    std::string graph = "sir";
+    std::string scene = "builtin:atrium";
+    uvec2 size{400, 300};
+    Overrides overrides;
+    std::string truth = "prt";       ///< the graph whose output "color" is the truth
+    std::uint32_t truth_samples = 0; ///< 0 = as many as the graph's own "samples"
+    MeasuredEffect effect = MeasuredEffect::kAll;
+    std::size_t views = 8;
+    std::string output_directory; ///< "" = no files
+    std::string device;
+    std::uint64_t seed = 0;
+    bool markdown = false; ///< the table of measure for documents
+    bool json = false;
+};
+
+struct FitArguments : MeasureArguments {
+    std::string method = "both"; ///< "random", "nnls", "both"
+    std::uint64_t tuples = 1000; ///< of the random search
+    double greatest = 1;         ///< weight that it tries
+    std::string output;          ///< graph file to write; "" = none
+};
+
 int check(const CheckArguments& arguments, const Console& console);
 int passes(const PassesArguments& arguments, const Console& console);
 int compare(const CompareArguments& arguments, const Console& console);
@@ -150,6 +176,9 @@ int demo(const DemoArguments& arguments, const Console& console);
 int benchParts(const BenchPartsArguments& arguments, const Console& console);
 int benchTable1(const BenchTable1Arguments& arguments, const Console& console);
 int benchTracers(const BenchTracersArguments& arguments, const Console& console);
+int benchFigure10(const MeasureArguments& arguments, const Console& console);
+int measure(const MeasureArguments& arguments, const Console& console);
+int fit(const FitArguments& arguments, const Console& console);
 
 /// Reads the command line, runs the command, turns exceptions into one message and an exit code.
 /// `kit`: what selftest runs; empty where the program was built without.

@@ -43,8 +43,8 @@ std::string toCsv(const Curve& curve) {
     return text.str();
 }
 
-/// A graph's name is any text: only letters, digits, "_" and "-" of it go into a file's name, so
-/// that it stays in the output folder.
+} // namespace
+
 std::string fileStem(std::string name) {
     const auto is_plain = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -53,8 +53,6 @@ std::string fileStem(std::string name) {
     std::ranges::replace_if(name, std::not_fn(is_plain), '_');
     return name;
 }
-
-} // namespace
 
 std::vector<vec3> picture(const Value& value) {
     std::vector<vec3> result;

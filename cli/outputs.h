@@ -19,6 +19,10 @@ using Provenance = std::vector<std::pair<std::string, std::string>>;
 std::vector<std::string> writeOutputs(const Executor& executor, const std::string& directory,
                                       const Provenance& provenance);
 
+/// Any text as a file's name: only letters, digits, "_" and "-" of it stay, the others become "_",
+/// so that the file stays in its folder.
+[[nodiscard]] std::string fileStem(std::string name);
+
 /// A plane as a person looks at it: radiance through the sRGB curve, errors and rounds as heat,
 /// hits as false colours. Empty for values that are no picture.
 [[nodiscard]] std::vector<vec3> picture(const Value& value);

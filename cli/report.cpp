@@ -71,6 +71,10 @@ std::string toHtml(const Report& report) {
                 "\" src=\"data:image/png;base64," + base64(encodePng(picture.image)) +
                 "\"><figcaption><b>" + escapeHtml(picture.title) + "</b> – " +
                 escapeHtml(picture.caption) + "</figcaption></figure>\n";
+    html += "</div>\n<div class=\"pictures\">\n";
+    for (const ReportDrawing& drawing : report.drawings)
+        html += "<figure>" + drawing.svg + "<figcaption>" + escapeHtml(drawing.caption) +
+                "</figcaption></figure>\n";
     html += "</div>\n";
     for (const ReportTable& table : report.tables) {
         html += "<h2>" + escapeHtml(table.title) + "</h2>\n<table><tr>";

@@ -15,6 +15,11 @@ struct ReportPicture {
     Image8 image;
 };
 
+struct ReportDrawing {
+    std::string caption;
+    std::string svg; ///< of toSvg(); put in as it is
+};
+
 struct ReportTable {
     std::string title;
     std::vector<std::string> head;
@@ -26,6 +31,7 @@ struct Report {
     std::string summary;
     std::vector<ReportPicture> pictures;
     std::vector<ReportTable> tables;
+    std::vector<ReportDrawing> drawings{};
 };
 
 /// One HTML file that needs nothing else: pictures inside, no script, no network. All text is

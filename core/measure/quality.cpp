@@ -66,6 +66,10 @@ MetricQuality judge(const ViewTruth& truth, std::span<const float> expect,
     quality.by_pixels = converge(truth.square, expect, {});
     quality.gain = gain(quality.by_pixels, convergeOracle(truth.square, {}));
     quality.by_rays = converge(truth.square, expect, truth.cost);
+    for (std::size_t k = 0; k < kShares.size(); ++k) {
+        quality.pixels_until[k] = quality.by_pixels.costUntil(kShares[k]);
+        quality.rays_until[k] = quality.by_rays.costUntil(kShares[k]);
+    }
     quality.gain_by_rays = gain(quality.by_rays, convergeOracle(truth.square, truth.cost));
 
     std::vector<bool> is_stopped(bound.size());

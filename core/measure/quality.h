@@ -20,6 +20,9 @@ template <class T> using ByThreshold = std::array<T, kThresholds.size()>;
     return static_cast<float>(threshold) / 255.0f;
 }
 
+/// Shares of the squared error whose costs are told.
+inline constexpr std::array<double, 2> kShares{0.1, 0.01};
+
 /// What is known of a view: lists of one number a pixel.
 struct ViewTruth {
     uvec2 extent{0, 0};
@@ -42,6 +45,7 @@ struct MetricQuality {
     double spearman = 0; ///< of expect and the error
     Calibration calibration;
     Convergence by_pixels, by_rays; ///< MSE while pixels are refined in this order
+    std::array<double, 2> pixels_until{}, rays_until{}; ///< cost until each of kShares is left
     double gain = 0, gain_by_rays = 0;
     /// The same among the pixels that the gate lets through: what the order is worth without what
     /// the gate is worth. AUC at the first threshold.

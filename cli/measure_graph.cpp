@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hone/cli/measure_graph.h"
+
+#include "hone/core/error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+
+namespace hone::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The file as it is; it was read without a problem before.
+Json readGraph(const std::string& path) {
+    std::ifstream file(path);
+    return Json::parse(file, nullptr, true, true);
+}
+
+bool isOutsideLoops(const PlannedNode& node) {
+    return node.type != nullptr && node.parent == kNoId;
+}
+
+std::string rasterOf(const CompiledGraph& graph) {
+    for (const NamedValue& output : graph.outputs)
+        if (output.name == "raster" && graph.values[output.value].type == types::kRadiance)
+            return graph.values[output.value].name;
+    for (const PlannedNode& node : graph.nodes)
+        if (isOutsideLoops(node))
+            for (const OutPort& port : node.type->outputs)
+                if (port.type == types::kRadiance)
+                    return node.name + "." + port.name;
+    throw GraphError(graph.file +
+                     ": nothing to judge: no output \"raster\" of type Radiance and no "
+                     "pass outside loops that makes one");
+}
+
+} // namespace
+
+MeasureGraph makeMeasureGraph(const std::string& path, const Catalog& catalog,
+                              const Overrides& overrides) {
+    const CompiledGraph written = loadGraph(path, catalog, overrides);
+    MeasureGraph result;
+    Json graph = readGraph(path);
+    Json outputs = {{"raster", rasterOf(written)}};
+    const auto add = [&](GraphMetric metric, const std::string& value) {
+        metric.output = "metric_" + std::to_string(result.metrics.size());
+        outputs[metric.output] = value;
+        result.metrics.push_back(std::move(metric));
+    };
+    for (const PlannedNode& node : written.nodes) {
+        if (!isOutsideLoops(node))
+            continue;
+        for (const OutPort& port : node.type->outputs) {
+            if (port.type != types::kError)
+                continue;
+            const std::string name = node.name + "." + port.name;
+            const bool is_combiner = node.type->name == "combine";
+            const std::string mode = is_combiner ? node.params.get<std::string>("mode") : "";
+            add({name, {}, node.name, mode}, name);
+            if (!is_combiner)
+                continue;
+            for (const std::string& other : node.type->findParam("mode")->choices) {
+                if (other == mode)
+                    continue;
+                Json pass = graph["passes"][node.name];
+                pass["params"]["mode"] = other;
+                std::string twin = node.name + "_" + other;
+                while (graph["passes"].contains(twin))
+                    twin += "_";
+                graph["passes"][twin] = std::move(pass);
+                add({name + "[" + other + "]", {}, node.name, other}, twin + "." + port.name);
+            }
+        }
+    }
+    if (result.metrics.empty())
+        throw GraphError(path + ": nothing to judge: no pass outside loops makes an Error");
+    graph["outputs"] = std::move(outputs);
+
+    std::vector<Diagnostic> diagnostics;
+    const GraphDesc desc = parseGraph("measurement of " + path, graph.dump(2), diagnostics);
+    result.graph = compileOrThrow(desc, catalog, overrides, std::move(diagnostics));
+    return result;
+}
+
+} // namespace hone::cli
