@@ -363,6 +363,38 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     measure_app->add_flag("--markdown", measure_arguments.markdown, "the table for a document");
     chosen(measure_app, [&] { return measure(measure_arguments, console); });
 
+    FitArguments fit_arguments;
+    CLI::App* fit_app =
+        app.add_subcommand("fit", "find the weights of a graph's combination of error metrics");
+    fit_app->add_option("graph", fit_arguments.graph, "graph file or shipped graph")->required();
+    addMeasureOptions(fit_app, fit_arguments);
+    fit_app
+        ->add_option("--method", fit_arguments.method,
+                     "random: the paper's search; nnls: least squares; both writes nnls")
+        ->check(CLI::IsMember({"random", "nnls", "both"}))
+        ->capture_default_str();
+    fit_app->add_option("--tuples", fit_arguments.tuples, "weights that the random search tries")
+        ->capture_default_str();
+    fit_app->add_option("--greatest", fit_arguments.greatest, "weight that it tries")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    fit_app->add_option("-o,--output", fit_arguments.output,
+                        "graph file to write, with the weights (none)");
+    chosen(fit_app, [&] { return fit(fit_arguments, console); });
+
+    MeasureArguments figure10_arguments;
+    figure10_arguments.views = 1;
+    figure10_arguments.output_directory = "out/figure10";
+    CLI::App* figure10_app = bench_app->add_subcommand(
+        "figure10", "real error, estimated error and difference for every way to combine metrics");
+    figure10_app->add_option("--graph", figure10_arguments.graph, "graph file or shipped graph")
+        ->capture_default_str();
+    addMeasureOptions(figure10_app, figure10_arguments);
+    figure10_app
+        ->add_option("-o,--output", figure10_arguments.output_directory, "folder for the pictures")
+        ->capture_default_str();
+    chosen(figure10_app, [&] { return benchFigure10(figure10_arguments, console); });
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {
@@ -371,7 +403,8 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     for (SessionArguments* arguments : std::initializer_list<SessionArguments*>{
              &demo_arguments, &render_arguments, &check_arguments, &passes_arguments,
              &compare_arguments, &doctor_arguments, &replay_arguments, &selftest_arguments,
-             &bench_arguments, &table1_arguments, &tracers_arguments, &measure_arguments})
+             &bench_arguments, &table1_arguments, &tracers_arguments, &measure_arguments,
+             &fit_arguments, &figure10_arguments})
         arguments->plugins = plugins;
     if (verbose)
         logger().set_level(spdlog::level::info);
