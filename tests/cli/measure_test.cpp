@@ -129,6 +129,23 @@ TEST_F(Measure, CountsPixelsWhoseTruthIsTooNoisy) {
     EXPECT_LT(with_many, with_few);
 }
 
+// SCIENCE 2.1: on a mirror sphere around its probe the error grows with the angle. Metrics 3 and 4
+// as corrected order pixels by it, both alike; as printed they do the opposite; metric 1 has no
+// order.
+TEST_F(Measure, FindsThePapersAnglesUpsideDown) {
+    const CommandRun measured = run({"metrics", "--scene", "builtin:mirror_sphere", "--effect",
+                                     "reflection", "--views", "1", "--json"});
+    ASSERT_EQ(measured.code, kOk) << measured.err;
+    const nlohmann::json report = measured.json();
+    const auto gainOf = [&](const char* metric) {
+        return rowOf(report, metric)["gain_flagged"].get<double>();
+    };
+    EXPECT_GT(gainOf("reflection_4.error"), 0.2);
+    EXPECT_NEAR(gainOf("reflection_3.error"), gainOf("reflection_4.error"), 0.01);
+    EXPECT_LT(gainOf("reflection_4_printed.error"), -0.2);
+    EXPECT_NEAR(gainOf("reflection_1.error"), 0, 1e-9);
+}
+
 TEST_F(Measure, WritesTablesAndPictures) {
     const TemporaryFolder folder;
     const CommandRun measured =
