@@ -13,6 +13,8 @@ HONE_WRITE(vec2, error)
 HONE_CONST uint kMean = 0u;
 HONE_CONST uint kLinear = 1u;
 HONE_CONST uint kMax = 2u;
+HONE_CONST uint kNoisyOr = 3u;
+HONE_CONST uint kSum = 4u;
 HONE_CONST float kLargest = 3.402823466e38f;
 
 /// What an error must be: NaN and infinity say that a metric failed and count as 1, never as 0.
@@ -33,13 +35,15 @@ void kernel(uint index) {
         vec2 term = errors[metric].data[index];
         float term_expect = sanitised(term.x);
         float term_bound = sanitised(term.y);
-        if (params.mode != kMean)
+        if (params.mode != kMean && params.mode != kSum)
             term_expect *= weightOf(metric);
         if (params.mode == kMax) {
             expect = max(expect, term_expect);
             bound = max(bound, term_bound);
         } else {
-            expect += term_expect;
+            // a + (1 - a) b = 1 - (1 - a)(1 - b), but keeps small chances.
+            expect +=
+                params.mode == kNoisyOr ? (1.0f - expect) * min(term_expect, 1.0f) : term_expect;
             bound += term_bound;
         }
     }

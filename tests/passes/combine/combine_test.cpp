@@ -35,6 +35,24 @@ TEST(Combine, MaxTakesTheLargestWeightedErrorAndTheLargestBound) {
     EXPECT_EQ(combined("max"), vec2(0.5f, 1.0f));
 }
 
+TEST(Combine, SumAddsErrorsAndBoundsWithoutWeights) {
+    EXPECT_EQ(combined("sum"), vec2(0.75f, 1.5f)); // 0.25 + 0.5 + 0
+}
+
+TEST(Combine, NoisyOrIsTheChanceThatAnyEffectIsWrong) {
+    EXPECT_EQ(combined("noisy_or"), vec2(0.625f, 1.5f)); // 1 - (1 - 2 * 0.25)(1 - 0.5 * 0.5)
+}
+
+TEST(Combine, NoisyOrIsCertainWhereOneMetricIsAndKeepsSmallChances) {
+    PassRun run(combinePass());
+    run.extent({2, 1}).param("mode", "noisy_or");
+    run.plane<vec2>("errors", {{0.75f, 1.0f}, {1e-12f, 0.0f}}, {4.0f}); // 3, cut at 1
+    run.plane<vec2>("errors", {{0.5f, 1.0f}, {0.0f, 0.0f}});
+    const std::vector<vec2> error = run.execute().output<vec2>("error");
+    EXPECT_EQ(error[0], vec2(1.0f, 2.0f));
+    EXPECT_EQ(error[1], vec2(4e-12f, 0.0f)); // 1 - (1 - 4e-12) would be 0
+}
+
 TEST(Combine, LinearIsNotCutAtOne) {
     PassRun run(combinePass());
     run.extent({1, 1}).param("mode", "linear");
@@ -43,15 +61,17 @@ TEST(Combine, LinearIsNotCutAtOne) {
 }
 
 TEST(Combine, CountsWhatIsNotFiniteAsOneAndWhatIsNegativeAsZero) {
-    PassRun run(combinePass());
-    run.extent({4, 1}).param("mode", "linear");
-    run.plane<vec2>("errors",
-                    {{kNan, kNan}, {kInfinity, -kInfinity}, {-0.5f, -1.0f}, {-0.0f, 0.25f}});
-    const std::vector<vec2> error = run.execute().output<vec2>("error");
-    EXPECT_EQ(error[0], vec2(1.0f, 1.0f));
-    EXPECT_EQ(error[1], vec2(1.0f, 1.0f));
-    EXPECT_EQ(error[2], vec2(0.0f, 0.0f));
-    EXPECT_EQ(error[3], vec2(0.0f, 0.25f));
+    for (const char* mode : {"mean", "linear", "max", "noisy_or", "sum"}) {
+        PassRun run(combinePass());
+        run.extent({4, 1}).param("mode", mode);
+        run.plane<vec2>("errors",
+                        {{kNan, kNan}, {kInfinity, -kInfinity}, {-0.5f, -1.0f}, {-0.0f, 0.25f}});
+        const std::vector<vec2> error = run.execute().output<vec2>("error");
+        EXPECT_EQ(error[0], vec2(1.0f, 1.0f)) << mode;
+        EXPECT_EQ(error[1], vec2(1.0f, 1.0f)) << mode;
+        EXPECT_EQ(error[2], vec2(0.0f, 0.0f)) << mode;
+        EXPECT_EQ(error[3], vec2(0.0f, 0.25f)) << mode;
+    }
 }
 
 TEST(Combine, StaysFiniteWhenTermsOverflow) {
@@ -74,7 +94,7 @@ TEST(Combine, TakesEightMetricsEachWithItsWeight) {
 class CombineVulkan : public VulkanTest {};
 
 TEST_F(CombineVulkan, CombinesAsTheHostDoes) {
-    for (const char* mode : {"mean", "linear", "max"}) {
+    for (const char* mode : {"mean", "linear", "max", "noisy_or", "sum"}) {
         PassRun run(combinePass(), device());
         run.extent({1, 1}).param("mode", mode);
         run.plane<vec2>("errors", {{0.25f, 0.5f}}, {2.0f});
