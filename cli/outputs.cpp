@@ -27,7 +27,8 @@ ImageLayer toLayer(const std::string& name, const Value& value) {
         layer.channel_names = {"instance", "primitive"};
     else
         layer.channel_names = usualChannelNames(value.type->stride / 4);
-    if (*value.type == types::kHits || *value.type == types::kRound)
+    if (*value.type == types::kHits || *value.type == types::kRound ||
+        *value.type == types::kSampleCounts)
         add(std::span<const uint>(value.buffer.as<uint>().first(words)));
     else
         add(std::span<const float>(value.buffer.as<float>().first(words)));
@@ -78,6 +79,14 @@ std::vector<vec3> picture(const Value& value) {
                               : heatColor(1.0f - 0.85f * static_cast<float>(round - 1) /
                                                      static_cast<float>(last));
         });
+    } else if (*value.type == types::kSampleCounts) {
+        const std::span<uint> counts = value.as<uint>();
+        const uint most = counts.empty() ? 1u : std::max(1u, *std::ranges::max_element(counts));
+        map(counts, [most](uint count) {
+            return heatColor(static_cast<float>(count) / static_cast<float>(most));
+        });
+    } else if (*value.type == types::kPixelOcclusion || *value.type == types::kTolerance) {
+        map(value.as<float>(), [](float x) { return vec3(std::clamp(x, 0.0f, 1.0f)); });
     } else if (*value.type == types::kDepth) {
         const std::span<float> depths = value.as<float>();
         const float far =

@@ -10,6 +10,7 @@ void registerPasses(PassRegistry& registry) {
     registry.add(depthOfFieldPass());
     registry.add(dofErrorPass());
     registry.add(environmentProbePass());
+    registry.add(estimatePass());
     registry.add(kbm10ErrorPass());
     registry.add(measureErrorPass());
     registry.add(propagateErrorPass());

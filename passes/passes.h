@@ -12,6 +12,7 @@ namespace hone {
 [[nodiscard]] PassType depthOfFieldPass();
 [[nodiscard]] PassType dofErrorPass();
 [[nodiscard]] PassType environmentProbePass();
+[[nodiscard]] PassType estimatePass();
 [[nodiscard]] PassType kbm10ErrorPass();
 [[nodiscard]] PassType measureErrorPass();
 [[nodiscard]] PassType propagateErrorPass();

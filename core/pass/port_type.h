@@ -61,6 +61,8 @@ inline constexpr PortType kSamples{"Samples", Shape::kList, 16,
                                    "vec3 radiance and uint pixel, by request, samples ascending"};
 inline constexpr PortType kCursor{"Cursor", Shape::kRecord, 4,
                                   "uint, how far the order was requested"};
+inline constexpr PortType kSampleCounts{
+    "SampleCounts", Shape::kPlane, 4, "uint, >= 1: samples that one visit of the pixel shall take"};
 inline constexpr PortType kShadowMaps{"ShadowMaps", Shape::kRecord, 4,
                                       "float depth cube maps by light, point, face"};
 inline constexpr PortType kShadowRanges{"ShadowRanges", Shape::kRecord, 8,
@@ -71,14 +73,21 @@ inline constexpr PortType kEnvironmentMaps{"EnvironmentMaps", Shape::kRecord, 16
 inline constexpr PortType kOcclusion{"Occlusion", Shape::kRecord, 4,
                                      "float in [0,1] by vertex: share of the cosine-weighted "
                                      "hemisphere that the vertex's own object covers"};
+inline constexpr PortType kPixelOcclusion{
+    "PixelOcclusion", Shape::kPlane, 4,
+    "float in [0,1]: share of the cosine-weighted hemisphere that the pixel's own object covers"};
+inline constexpr PortType kTolerance{
+    "Tolerance", Shape::kPlane, 4,
+    "float, > 0: difference of luminance that is just not seen, as a share of display white"};
 inline constexpr PortType kCurve{"Curve", Shape::kCurve, 0, "what a loop did, by iteration"};
 
 /// Every type that hone knows by itself; plug-ins' types are those of their passes' ports
 /// (graphTypes in pass_type.h finds all).
 inline constexpr PortType kAll[] = {
-    kScene,      kCamera,       kExtent,          kHits,      kDepth,       kRadiance, kDisplay,
-    kError,      kAccumulation, kRound,           kPixelList, kRequestList, kSamples,  kCursor,
-    kShadowMaps, kShadowRanges, kEnvironmentMaps, kOcclusion, kCurve};
+    kScene,     kCamera,         kExtent,       kHits,       kDepth,        kRadiance,
+    kDisplay,   kError,          kAccumulation, kRound,      kPixelList,    kRequestList,
+    kSamples,   kCursor,         kSampleCounts, kShadowMaps, kShadowRanges, kEnvironmentMaps,
+    kOcclusion, kPixelOcclusion, kTolerance,    kCurve};
 
 } // namespace types
 } // namespace hone

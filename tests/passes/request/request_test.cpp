@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/core/image/tile_order.h"
+#include "hone/core/trace/sample.glsl.h"
 #include "hone/passes/passes.h"
 #include "hone/tests/support/run_pass.h"
 
@@ -57,6 +58,87 @@ TEST(Request, GoesOnWhereTheStateStands) {
     run.list<uint>("order", {3, 2, 1, 0}).list<uint>("state", {2}).execute();
     EXPECT_EQ(run.output<uvec3>("requests"), (std::vector<uvec3>{{1, 0, 1}}));
     EXPECT_EQ(run.output<uint>("state"), std::vector<uint>{3});
+}
+
+/// Executes with what the pixels have so far, and gives them what was requested.
+std::vector<uvec3> nextVisit(PassRun& run, std::vector<uint>& taken) {
+    std::vector<Accumulated> accumulation;
+    for (uint count : taken)
+        accumulation.push_back({vec3(0), count});
+    run.plane("accumulation", accumulation).execute();
+    const std::vector<uvec3> requests = run.output<uvec3>("requests");
+    for (uvec3 request : requests) {
+        EXPECT_EQ(request.y, taken[request.x]) << "samples follow those that were taken";
+        taken[request.x] += request.z;
+    }
+    return requests;
+}
+
+TEST(Request, VisitsBadPixelsForMoreSamplesAndTheOthersUntilAllHaveAll) {
+    PassRun run(requestPass());
+    run.extent({3, 1}).param("batch", 2u).param("samples", 5u);
+    run.list<uint>("order", {2, 0, 1}).plane<uint>("counts", {2, 1, 4});
+    std::vector<uint> taken{0, 0, 0};
+    using Requests = std::vector<uvec3>;
+    EXPECT_EQ(nextVisit(run, taken), (Requests{{0, 0, 2}, {2, 0, 4}}));
+    EXPECT_EQ(nextVisit(run, taken), (Requests{{1, 0, 1}})); // the order ends
+    EXPECT_EQ(nextVisit(run, taken), (Requests{{0, 2, 2}, {2, 4, 1}}));
+    EXPECT_EQ(nextVisit(run, taken), (Requests{{1, 1, 1}}));
+    EXPECT_EQ(nextVisit(run, taken), (Requests{{0, 4, 1}, {1, 2, 1}})); // 2 is finished
+    EXPECT_EQ(nextVisit(run, taken), (Requests{{1, 3, 1}}));
+    EXPECT_EQ(nextVisit(run, taken), (Requests{{1, 4, 1}}));
+    EXPECT_EQ(nextVisit(run, taken), Requests{});
+    EXPECT_EQ(taken, (std::vector<uint>{5, 5, 5}));
+}
+
+TEST(Request, EndsABatchBeforeItsSamplesAreTooMany) {
+    PassRun run(requestPass());
+    run.extent({4, 1}).param("samples", 9u).param("max_samples", 5u);
+    run.list<uint>("order", {0, 1, 2, 3}).plane<uint>("counts", {3, 2, 9, 1});
+    std::vector<uint> taken{0, 0, 0, 0};
+    using Requests = std::vector<uvec3>;
+    EXPECT_EQ(nextVisit(run, taken), (Requests{{0, 0, 3}, {1, 0, 2}}));
+    EXPECT_EQ(nextVisit(run, taken), (Requests{{2, 0, 9}})); // one pixel at least
+    EXPECT_EQ(nextVisit(run, taken), (Requests{{3, 0, 1}}));
+}
+
+TEST(Request, GivesEveryPixelItsSamplesWhateverCountsAndBatchesAre) {
+    const uvec2 extent{37, 21};
+    std::mt19937 random(3);
+    std::vector<uint> order(extent.x * extent.y), counts(order.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::ranges::shuffle(order, random);
+    for (uint& count : counts)
+        count = static_cast<uint>(random() % 9); // 0 counts as 1
+    for (const auto& [batch, max_samples] : {std::pair{1u, 0u}, {7u, 0u}, {0u, 0u}, {0u, 50u}})
+        for (bool has_order : {false, true}) {
+            PassRun run(requestPass());
+            run.extent(extent).param("batch", batch).param("max_samples", max_samples);
+            run.param("samples", 6u).plane("counts", counts);
+            if (has_order)
+                run.list("order", order);
+            std::vector<uint> taken(order.size());
+            while (!nextVisit(run, taken).empty()) {
+            }
+            EXPECT_EQ(taken, std::vector<uint>(order.size(), 6)) << batch << " " << max_samples;
+        }
+}
+
+TEST(Request, OfCountsSaysWhatToConnect) {
+    for (bool has_counts : {false, true}) {
+        PassRun run(requestPass());
+        run.extent({1, 1});
+        if (has_counts)
+            run.plane<uint>("counts", {1});
+        else
+            run.param("max_samples", 4u);
+        try {
+            run.execute();
+            FAIL() << "ran without accumulation";
+        } catch (const GraphError& error) {
+            EXPECT_NE(std::string(error.what()).find("accumulation"), std::string::npos);
+        }
+    }
 }
 
 TEST(Request, IsEmptyForAnEmptyOrder) {
