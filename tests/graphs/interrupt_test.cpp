@@ -52,7 +52,8 @@ public:
     }
 
     /// Cancels at one query after another, and lets the next run end.
-    void cancelEverywhere(const std::string& graph, const Overrides& overrides) {
+    void cancelEverywhere(const std::string& graph, const Overrides& overrides,
+                          int queries_before_loop = 0) {
         const std::unique_ptr<Executor> whole = load(graph, overrides);
         whole->run();
         const std::vector<std::byte> image = colorOf(*whole);
@@ -65,7 +66,8 @@ public:
             if (!is_cancelled)
                 break; // that many are not asked
             EXPECT_EQ(queries, cancel_at);
-            EXPECT_EQ(curve.stop, "cancelled");
+            // A query before the loop: that never began.
+            EXPECT_EQ(curve.stop, cancel_at > queries_before_loop ? "cancelled" : "");
             is_cancelled = false;
             cut->run({.cancel = &is_cancelled});
             EXPECT_EQ(curve.stop, "empty");
@@ -142,6 +144,11 @@ class InterruptVulkan : public VulkanTest {};
 
 TEST_F(InterruptVulkan, RefinementEndsAtTheSameBitsWhereverItWasCancelled) {
     InterruptTest(&device()).cancelEverywhere("sir", {{"samples", "2"}, {"batch", "3000"}});
+}
+
+TEST_F(InterruptVulkan, VisitsWithCountsEndAtTheSameBitsWhereverTheyWereCancelled) {
+    InterruptTest(&device()).cancelEverywhere("paper_corrected",
+                                              {{"samples", "3"}, {"batch", "3000"}}, 1);
 }
 
 } // namespace

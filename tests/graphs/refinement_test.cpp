@@ -2,79 +2,19 @@
 //
 // What hone promises above all: a refined image is the ray-traced image, bit for bit, once every
 // pixel has its samples, whatever the order said and however large the batches were.
-#include "hone/backends/embree/embree_backend.h"
-#include "hone/backends/host/host_device.h"
-#include "hone/core/graph/executor.h"
 #include "hone/core/image/image.h"
-#include "hone/passes/passes.h"
-#include "hone/tests/support/vulkan_fixture.h"
-
-#include <bit>
+#include "hone/tests/graphs/refinement_fixture.h"
 
 namespace hone {
 namespace {
 
-constexpr uvec2 kExtent{64, 48};
-constexpr std::uint64_t kSeed = 3;
-
-class Refinement : public VulkanTest, public testing::WithParamInterface<std::string> {
+class Refinement : public RefinementTest, public testing::WithParamInterface<std::string> {
 protected:
     void SetUp() override {
         VulkanTest::SetUp();
-        if (IsSkipped())
-            return;
-        registerPasses(passes_);
-        tracers_.add("embree", "", [](const Devices&) { return makeEmbreeBackend(); });
-        host_ = makeHostDevice();
-        scene_ = loadScene("builtin:" + GetParam());
-        camera_ = makeCamera(scene_.camera(""));
+        if (!IsSkipped())
+            open(GetParam());
     }
-
-    std::unique_ptr<Executor> load(const std::string& graph) {
-        const Catalog catalog{&passes_, &tracers_};
-        auto executor = std::make_unique<Executor>(
-            loadGraph(HONE_SOURCE_DIR "/graphs/" + graph + ".json", catalog, {}), catalog,
-            Devices{host_.get(), &device()}, kSeed);
-        executor->setScene(scene_);
-        executor->setCamera(camera_);
-        executor->setExtent(kExtent);
-        return executor;
-    }
-
-    static std::vector<vec3> colorOf(Executor& executor) {
-        executor.run();
-        const std::span<vec3> pixels = executor.output("color").as<vec3>();
-        EXPECT_EQ(pixels.size(), std::size_t{kExtent.x} * kExtent.y);
-        return {pixels.begin(), pixels.end()};
-    }
-
-    /// How many pixels differ in a bit, and the first of them.
-    static testing::AssertionResult areSameBits(const std::vector<vec3>& a,
-                                                const std::vector<vec3>& b) {
-        std::size_t differing = 0, first = 0;
-        for (std::size_t pixel = a.size(); pixel-- > 0;) {
-            bool same = true;
-            for (int channel = 0; channel < 3; ++channel)
-                same &= std::bit_cast<uint>(a[pixel][channel]) ==
-                        std::bit_cast<uint>(b[pixel][channel]);
-            if (!same) {
-                ++differing;
-                first = pixel;
-            }
-        }
-        if (differing == 0)
-            return testing::AssertionSuccess();
-        return testing::AssertionFailure()
-               << differing << " pixels differ, first (" << first % kExtent.x << ", "
-               << first / kExtent.x << "): " << a[first].x << " " << a[first].y << " " << a[first].z
-               << " against " << b[first].x << " " << b[first].y << " " << b[first].z;
-    }
-
-    PassRegistry passes_;
-    TraceBackendRegistry tracers_;
-    std::unique_ptr<Device> host_;
-    Scene scene_;
-    Camera camera_{};
 };
 
 TEST_P(Refinement, EndsAtTheTracedImageBitForBit) {
