@@ -17,6 +17,7 @@ void registerPasses(PassRegistry& registry) {
     registry.add(rasterPass());
     registry.add(reflectionErrorPass());
     registry.add(requestPass());
+    registry.add(screenOcclusionPass());
     registry.add(selfOcclusionPass());
     registry.add(shadowErrorPass());
     registry.add(shadowMapPass());

@@ -19,6 +19,7 @@ namespace hone {
 [[nodiscard]] PassType rasterPass();
 [[nodiscard]] PassType reflectionErrorPass();
 [[nodiscard]] PassType requestPass();
+[[nodiscard]] PassType screenOcclusionPass();
 [[nodiscard]] PassType selfOcclusionPass();
 [[nodiscard]] PassType shadowErrorPass();
 [[nodiscard]] PassType shadowMapPass();

@@ -5,7 +5,8 @@
 // For each vertex of a mirror instance, the cosine-weighted share of rays that hit the same
 // instance, whatever the distance and whichever face. 0 on convex objects. An instance is a glTF
 // primitive placed in the world; instances of one mesh share their vertices, and the first mirror
-// among them decides. Vertices of other meshes are 0. Runs again only when the scene changed.
+// among them decides. Vertices of other meshes are 0. Runs again only when the scene changed; where
+// that is often, error.screen_occlusion is cheaper and knows less.
 //
 // in   scene      Scene
 // out  occlusion  Occlusion, by vertex of the scene

@@ -2,17 +2,20 @@
 #include "hone/passes/passes.h"
 #include "hone/tests/support/run_pass.h"
 #include "hone/tests/support/scene_builder.h"
+#include "hone/tests/support/vulkan_fixture.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace hone {
 namespace {
 
 constexpr float kRadians = 0.017453293f;
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 Material mirror(float f0) {
     Material material = test::plainMaterial(kMaterialMirror | kMaterialTwoSided);
@@ -142,6 +145,60 @@ TEST(ReflectionError, MeasuresDistanceAgainstTheSceneWhenAsked) {
     EXPECT_NEAR(run.output<vec2>("error").front().x, std::min(1.0f / half_diagonal, 1.0f), 1e-5f);
 }
 
+TEST(ReflectionError, MeasuresDistanceAgainstTheFarthestPixelWhenAsked) {
+    // Three pixels side by side on a mirror 5 away, the probe on the middle one: x = -10/3, 0, 10/3
+    // with 3 x 1 pixels of tangent 1.
+    test::SceneBuilder builder;
+    const vec3 positions[] = {{-20, -9, -5}, {20, -9, -5}, {20, 9, -5}, {-20, 9, -5}};
+    const uvec3 triangles[] = {{0, 1, 2}, {0, 2, 3}};
+    builder.add(positions, triangles, builder.addMaterial(mirror(1.0f)));
+    Scene scene = builder.finish();
+    scene.probes = {{vec3(0, 0, -5), 0}};
+    scene.instances[0].probe = 0;
+    PassRun run(reflectionErrorPass());
+    run.extent({3, 1}).scene(scene).camera(straightAhead());
+    run.param("metric", 2u).param("max_distance", std::string("visible"));
+    run.plane<Hit>("gbuffer", {{0, 1}, {0, 0}, {0, 0}}).execute();
+    const std::vector<vec2> error = run.output<vec2>("error");
+    EXPECT_EQ(error[0].x, 1.0f);
+    EXPECT_NEAR(error[1].x, 0.0f, 1e-6f);
+    EXPECT_EQ(error[2].x, 1.0f);
+
+    // The farthest gone from the image, another is.
+    run.plane<Hit>("gbuffer", {{kNone, kNone}, {0, 0}, {kNone, kNone}}).execute();
+    EXPECT_EQ(run.output<vec2>("error")[0], vec2(0.0f));
+}
+
+/// A probe's map of 2 x 2 texels a face, which sees that far along +x, and 5 everywhere else.
+std::vector<vec4> mapsOf(float along_x) {
+    std::vector<vec4> maps(1 + 6 * 4, vec4(0, 0, 0, 5));
+    maps[0] = vec4(2, 1, 0, 0);
+    for (std::size_t texel = 1; texel <= 4; ++texel)
+        maps[texel].w = along_x;
+    return maps;
+}
+
+float errorAgainstProbe(const std::vector<vec4>& maps) {
+    const Scene scene = sphereAt(30 * kRadians);
+    PassRun run(reflectionErrorPass());
+    run.extent({1, 1}).scene(scene).camera(straightAhead());
+    run.param("metric", 2u).param("max_distance", std::string("probe"));
+    run.list("environment_maps", maps).plane<Hit>("gbuffer", {{0, 0}}).execute();
+    return run.output<vec2>("error").front().x;
+}
+
+TEST(ReflectionError, MeasuresDistanceAgainstWhatTheProbeSeesWhenAsked) {
+    // A sphere of radius 1 in a room of radius 5: |p - c| / 5.
+    EXPECT_NEAR(errorAgainstProbe(mapsOf(5)), 0.2f, 1e-6f);
+    // Each face fills a sixth of all directions: (2 + 5 * 5) / 6 = 4.5.
+    EXPECT_NEAR(errorAgainstProbe(mapsOf(2)), 1 / 4.5f, 1e-6f);
+    // The sky is left out.
+    EXPECT_NEAR(errorAgainstProbe(mapsOf(1e30f)), 0.2f, 1e-6f);
+    std::vector<vec4> sky(25, vec4(0, 0, 0, 1e30f));
+    sky[0] = vec4(2, 1, 0, 0);
+    EXPECT_EQ(errorAgainstProbe(sky), 0.0f);
+}
+
 TEST(ReflectionError, OfAnObjectWithoutProbeIsUnknown) {
     Scene scene = sphereAt(30 * kRadians);
     scene.instances[0].probe = kNone;
@@ -176,6 +233,52 @@ TEST(ReflectionError, OfSelfOcclusionIsTheVerticesMixedByBarycentrics) {
     run.list<float>("occlusion", {0.2f, 0.4f, 0.9f});
     run.plane<Hit>("gbuffer", {{0, 0}}).execute();
     EXPECT_NEAR(run.output<vec2>("error").front().x, 0.5f, 1e-6f);
+    run.param("orientation", std::string("accessibility")).execute();
+    EXPECT_NEAR(run.output<vec2>("error").front().x, 0.5f, 1e-6f);
+    run.list<float>("occlusion", {0.9f, 0.9f, 0.9f}).execute();
+    EXPECT_NEAR(run.output<vec2>("error").front().x, 0.1f, 1e-6f);
+}
+
+TEST(ReflectionError, OfAnySelfOcclusionIsOneHoweverLittleIsCovered) {
+    const Scene scene = sphereAt(0.0f);
+    PassRun run(reflectionErrorPass());
+    run.extent({1, 1}).scene(scene).camera(straightAhead()).param("metric", 5u);
+    run.param("covered", std::string("any")).plane<Hit>("gbuffer", {{0, 0}});
+    run.list<float>("occlusion", {0.015625f, 0, 0}).execute();
+    EXPECT_EQ(run.output<vec2>("error").front().x, 1.0f);
+    run.list<float>("occlusion", {0, 0, 0}).execute();
+    EXPECT_EQ(run.output<vec2>("error").front().x, 0.0f);
+    run.param("orientation", std::string("accessibility"));
+    run.list<float>("occlusion", {1, 1, 1}).execute();
+    EXPECT_EQ(run.output<vec2>("error").front().x, 0.0f);
+    run.list<float>("occlusion", {kNan, kNan, kNan}).execute();
+    EXPECT_EQ(run.output<vec2>("error").front().x, 1.0f);
+}
+
+TEST(ReflectionError, OfSelfOcclusionTakesThePixelsWhereTheyAreGiven) {
+    const Scene scene = sphereAt(0.0f);
+    PassRun run(reflectionErrorPass());
+    run.extent({1, 1}).scene(scene).camera(straightAhead()).param("metric", 5u);
+    run.plane<Hit>("gbuffer", {{0, 0}}).plane<float>("screen_occlusion", {0.25f}).execute();
+    EXPECT_EQ(run.output<vec2>("error").front(), vec2(0.25f));
+}
+
+class ReflectionErrorVulkan : public VulkanTest {};
+
+TEST_F(ReflectionErrorVulkan, IsWhatItIsOnTheHost) {
+    const Scene scene = sphereAt(50 * kRadians);
+    const auto errors = [&](PassRun& run, uint metric, const char* reach) {
+        run.extent({1, 1}).scene(scene).camera(straightAhead()).param("metric", metric);
+        run.param("max_distance", std::string(reach)).plane<Hit>("gbuffer", {{0, 0}});
+        run.list<float>("occlusion", {0.25f, 0.5f, 0.75f}).list("environment_maps", mapsOf(2));
+        return run.execute().output<vec2>("error").front().x;
+    };
+    for (uint metric = 1; metric <= 5; ++metric)
+        for (const char* reach : {"object", "visible", "scene", "probe"}) {
+            PassRun host(reflectionErrorPass()), vulkan(reflectionErrorPass(), device());
+            EXPECT_NEAR(errors(vulkan, metric, reach), errors(host, metric, reach), 1e-6f)
+                << metric << " " << reach;
+        }
 }
 
 TEST(ReflectionError, OfSelfOcclusionSaysWhatToConnect) {
