@@ -320,6 +320,16 @@ Scene atriumScene() {
                       .fov_y_degrees = 45,
                       .aperture = 0.15f,
                       .focus = 5.0f}};
+    // From the court past the mirror, rising.
+    const auto key = [](float time, vec3 position, vec3 target) {
+        return CameraKey{
+            time, {.name = "walk", .position = position, .target = target, .fov_y_degrees = 62}};
+    };
+    scene.paths = {{.name = "walk",
+                    .keys = {key(0, {-12.6f, 1.9f, 1.9f}, {1.0f, 3.0f, -0.9f}),
+                             key(2, {-8.0f, 2.0f, 1.0f}, {1.0f, 2.6f, -0.6f}),
+                             key(4, {-4.2f, 2.4f, 2.2f}, {0.0f, 2.0f, 0.0f}),
+                             key(6, {-1.8f, 3.4f, 3.4f}, {0.3f, 2.0f, -0.4f})}}};
     return scene;
 }
 

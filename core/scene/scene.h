@@ -24,6 +24,18 @@ struct CameraDesc {
     float focus = 1;    ///< view depth in metres that the lens images sharply
 };
 
+/// A camera at a time of a path.
+struct CameraKey {
+    float time = 0; ///< seconds
+    CameraDesc camera;
+};
+
+/// How a camera moves; camera_path.h says where it is in between.
+struct CameraPath {
+    std::string name;
+    std::vector<CameraKey> keys; ///< at least one, times ascending
+};
+
 /// The camera's axes made orthonormal. Throws SceneError if position equals target, up is parallel
 /// to the view, or a number is out of its range.
 [[nodiscard]] Camera makeCamera(const CameraDesc& desc);
@@ -60,6 +72,7 @@ struct Scene {
     PagedVector<Probe> probes;
 
     std::vector<CameraDesc> cameras; ///< at least one after finishScene
+    std::vector<CameraPath> paths;
     std::vector<std::string> instance_names;
     std::vector<std::string> material_names;
     std::string name;                  ///< what the user asked for: a path or builtin:atrium

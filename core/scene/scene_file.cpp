@@ -213,9 +213,10 @@ void readLens(const Object& object, CameraDesc& camera) {
     camera.aperture = focal_length / f_number;
 }
 
-CameraDesc readCamera(const Object& object) {
+/// All of a camera but its name.
+CameraDesc readView(const Object& object, const std::string& name) {
     CameraDesc camera;
-    camera.name = printable(object.text("name"));
+    camera.name = name;
     camera.position = object.vector("position");
     camera.target = object.vector("target");
     if (object.has("up"))
@@ -228,6 +229,21 @@ CameraDesc readCamera(const Object& object) {
                  camera);
     checkAt(object, [&] { (void)makeCamera(camera); });
     return camera;
+}
+
+CameraPath readPath(const Object& object) {
+    CameraPath path{.name = printable(object.text("name")), .keys = {}};
+    object.each("keys", [&](const Json& element, const std::string& pointer) {
+        const Object key(object.file(), pointer, element,
+                         {"time", "position", "target", "up", "fov_y", "near", "lens"});
+        const float time = key.number("time", -kMost, kMost);
+        if (!path.keys.empty() && !(time > path.keys.back().time))
+            key.fail("/time", "not later than the key before; expected ascending times");
+        path.keys.push_back({time, readView(key, path.name)});
+    });
+    if (path.keys.empty())
+        object.fail("", "expected \"keys\", an array of at least one camera with a \"time\"");
+    return path;
 }
 
 vec3 readDirection(const Object& object, const char* key) {
@@ -436,18 +452,23 @@ bool readSceneFile(const std::string& name, Scene& scene) {
         throw SceneError(error.what());
     }
     const Json json = parse(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    const Object root(
-        name, "", json,
-        {"$schema", "doc", "model", "cameras", "lights", "environment", "probes", "materials"});
+    const Object root(name, "", json,
+                      {"$schema", "doc", "model", "cameras", "paths", "lights", "environment",
+                       "probes", "materials"});
     readModel(root, scene);
 
     std::vector<CameraDesc> cameras;
     root.each("cameras", [&](const Json& element, const std::string& pointer) {
-        cameras.push_back(
-            readCamera(Object(name, pointer, element,
-                              {"name", "position", "target", "up", "fov_y", "near", "lens"})));
+        const Object object(name, pointer, element,
+                            {"name", "position", "target", "up", "fov_y", "near", "lens"});
+        cameras.push_back(readView(object, printable(object.text("name"))));
     });
     scene.cameras.insert(scene.cameras.begin(), cameras.begin(), cameras.end());
+    std::vector<CameraPath> paths;
+    root.each("paths", [&](const Json& element, const std::string& pointer) {
+        paths.push_back(readPath(Object(name, pointer, element, {"name", "keys"})));
+    });
+    scene.paths.insert(scene.paths.begin(), paths.begin(), paths.end());
     root.each("lights", [&](const Json& element, const std::string& pointer) {
         scene.lights.push_back(readLight(name, element, pointer));
     });

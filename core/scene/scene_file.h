@@ -14,6 +14,8 @@ namespace hone {
 /// - "cameras": [{"name", "position", "target", "up"?: [0,1,0], "fov_y"?: 60 degrees, "near"?:
 /// 0.01}];
 ///   they come before the model's own, so the first is the default.
+/// - "paths": [{"name", "keys": [{"time": seconds, ascending, and what a camera has but "name"}]}],
+///   camera paths, which come before the model's own; the first is the default.
 /// - "lights", added to the model's:
 ///   {"type": "point", "position", "intensity": W/sr, "range"?: metres, 0 = endless};
 ///   {"type": "spot", "position", "direction", "intensity", "inner"?: 0, "outer"?: 45 degrees, half

@@ -124,6 +124,37 @@ TEST_F(SceneFile, RefusesALensThatSaysTooMuchOrTooLittle) {
     expectError(lens(R"("focus": 0, "aperture": 1)"), "expected more than 0");
 }
 
+TEST_F(SceneFile, ReadsCameraPaths) {
+    const Scene scene = load(R"({"paths": [
+        {"name": "still", "keys": [{"time": -1, "position": [0, 0, 5], "target": [0, 0, 0]}]},
+        {"name": "fly\u001b", "keys": [
+            {"time": 0, "position": [0, 0, 5], "target": [0, 0, 0]},
+            {"time": 2.5, "position": [0, 1, 5], "target": [0, 0, 0], "fov_y": 30,
+             "lens": {"aperture": 0.5, "focus": 6}}]}]})");
+    ASSERT_EQ(scene.paths.size(), 2u);
+    EXPECT_EQ(scene.paths[0].keys[0].time, -1.0f);
+    EXPECT_EQ(scene.paths[1].name.find('\x1b'), std::string::npos) << "names are untrusted";
+    EXPECT_EQ(scene.paths[1].keys[1].time, 2.5f);
+    EXPECT_EQ(scene.paths[1].keys[1].camera.position, vec3(0, 1, 5));
+    EXPECT_EQ(scene.paths[1].keys[1].camera.fov_y_degrees, 30.0f);
+    EXPECT_EQ(scene.paths[1].keys[1].camera.aperture, 0.5f);
+}
+
+TEST_F(SceneFile, RefusesCameraPathsThatLeadNowhere) {
+    const auto path = [](const std::string& members) {
+        return R"({"paths": [{"name": "a")" + members + "}]}";
+    };
+    const std::string view = R"("position": [0, 0, 5], "target": [0, 0, 0])";
+    expectError(path(""), "/paths/0: expected \"keys\"");
+    expectError(path(R"(, "keys": [])"), "/paths/0: expected \"keys\"");
+    expectError(path(R"(, "keys": [{)" + view + "}]"), "/paths/0/keys/0: has no \"time\"");
+    expectError(path(R"(, "keys": [{"time": 1, )" + view + R"(}, {"time": 1, )" + view + "}]"),
+                "/paths/0/keys/1/time: not later than the key before");
+    expectError(path(R"(, "keys": [{"time": 1, "name": "b", )" + view + "}]"), "unknown key");
+    expectError(path(R"(, "keys": [{"time": 1, "position": [0, 0, 0], "target": [0, 0, 0]}])"),
+                "/paths/0/keys/0: camera \"a\": position and target");
+}
+
 TEST_F(SceneFile, ReadsTheEnvironmentAndThenAddsNoSun) {
     const Scene scene =
         load(R"({"environment": {"zenith": [0, 0, 1], "horizon": 0.5, "ambient": 0.25}})");
