@@ -186,8 +186,19 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     render_app
         ->add_option("--scene", render_arguments.scene, "*.scene.json, .gltf, .glb or builtin:NAME")
         ->capture_default_str();
-    render_app->add_option("--camera", render_arguments.camera,
-                           "a camera of the scene (its first)");
+    CLI::Option* camera_option = render_app->add_option("--camera", render_arguments.camera,
+                                                        "a camera of the scene (its first)");
+    CLI::Option* frames_option =
+        render_app
+            ->add_option("--frames", render_arguments.frames,
+                         "render so many pictures along a camera path, to numbered files")
+            ->check(CLI::Range(1, 1000000))
+            ->excludes(camera_option);
+    render_app
+        ->add_option("--path", render_arguments.path,
+                     "the camera path (the scene's first; around its first camera's target where "
+                     "it has none)")
+        ->needs(frames_option);
     addSize(render_app, "--size", render_arguments.size, "image size (800x600)");
     addOverrides(render_app, render_arguments.overrides);
     render_app
@@ -210,8 +221,10 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
         ->add_option("--max-copies", render_arguments.max_copies,
                      "exit 1 if more than so many things are copied between memories (0 = none)")
         ->check(CLI::NonNegativeNumber);
-    render_app->add_option("--reference", render_arguments.reference,
-                           "compare the color output with this image");
+    render_app
+        ->add_option("--reference", render_arguments.reference,
+                     "compare the color output with this image")
+        ->excludes(frames_option);
     render_app->add_option("--record", render_arguments.record,
                            "write every ray and its answer to this file, for hone replay");
     render_app

@@ -73,6 +73,8 @@ struct RenderArguments : SessionArguments {
     std::string graph;
     std::string scene = "builtin:atrium";
     std::string camera;
+    uint frames = 0;  ///< of a camera path; 0 = one picture from the camera
+    std::string path; ///< "" = the scene's first
     uvec2 size{800, 600};
     Overrides overrides;
     std::string output_directory = "out";

@@ -46,8 +46,8 @@ std::uint64_t toNumber(const std::string& text) {
 
 /// How both images were made, which must be the same but for the backend.
 PixelProbe::Setup commonOrigin(const Origin& a, const Origin& b, uvec2 extent) {
-    for (const char* name :
-         {"hone.graph", "hone.scene", "hone.camera", "hone.seed", "hone.version"})
+    for (const char* name : {"hone.graph", "hone.scene", "hone.camera", "hone.path", "hone.time",
+                             "hone.seed", "hone.version"})
         if (a.get(name) != b.get(name))
             throw InputError("the images differ in " + std::string(name) +
                              "; only images that differ in their backend alone can be explained");
@@ -55,6 +55,9 @@ PixelProbe::Setup commonOrigin(const Origin& a, const Origin& b, uvec2 extent) {
     setup.graph = a.get("hone.graph");
     setup.scene = a.get("hone.scene");
     setup.camera = a.get("hone.camera");
+    setup.path = a.get("hone.path");
+    const std::string time = a.get("hone.time");
+    std::from_chars(time.data(), time.data() + time.size(), setup.time);
     setup.extent = extent;
     setup.seed = toNumber(a.get("hone.seed"));
     setup.backends[0] = a.get("hone.backend");

@@ -100,14 +100,17 @@ std::vector<vec3> picture(const Value& value) {
 }
 
 std::vector<std::string> writeOutputs(const Executor& executor, const std::string& directory,
-                                      const Provenance& provenance) {
+                                      const Provenance& provenance, const std::string& number) {
+    const auto file = [&](const std::string& name, const char* ending) {
+        return directory + "/" + name + (number.empty() ? "" : "." + number) + ending;
+    };
     std::vector<std::string> paths;
     LayeredImage layered{{0, 0}, {}, provenance};
     for (const std::string& name : executor.outputs()) {
         const Value& value = executor.output(name);
         if (value.type->shape == Shape::kCurve && value.curve != nullptr) {
             const std::string text = toCsv(*value.curve);
-            paths.push_back(directory + "/" + name + ".csv");
+            paths.push_back(file(name, ".csv"));
             writeFileAtomically(paths.back(), std::as_bytes(std::span(text)));
         }
         if (value.type->shape != Shape::kPlane || value.version == 0)
@@ -115,12 +118,12 @@ std::vector<std::string> writeOutputs(const Executor& executor, const std::strin
         layered.extent = value.extent;
         layered.layers.push_back(toLayer(name, value));
         if (const std::vector<vec3> pixels = picture(value); !pixels.empty()) {
-            paths.push_back(directory + "/" + name + ".png");
+            paths.push_back(file(name, ".png"));
             writePng(paths.back(), quantize(value.extent, pixels), provenance);
         }
     }
     if (!layered.layers.empty()) {
-        paths.push_back(directory + "/" + fileStem(executor.graph().name) + ".exr");
+        paths.push_back(file(fileStem(executor.graph().name), ".exr"));
         writeExr(paths.back(), layered);
     }
     return paths;

@@ -14,10 +14,10 @@ namespace hone::cli {
 using Provenance = std::vector<std::pair<std::string, std::string>>;
 
 /// Writes a run's outputs to `directory`: all planes as layers of GRAPH.exr (float), each plane as
-/// a PNG for looking at, each curve as CSV. Returns the paths. Throws OutputError; each file is
-/// whole or not there.
+/// a PNG for looking at, each curve as CSV. With a `number`, "0007", files are called
+/// color.0007.png. Returns the paths. Throws OutputError; each file is whole or not there.
 std::vector<std::string> writeOutputs(const Executor& executor, const std::string& directory,
-                                      const Provenance& provenance);
+                                      const Provenance& provenance, const std::string& number = "");
 
 /// Any text as a file's name: only letters, digits, "_" and "-" of it stay, the others become "_",
 /// so that the file stays in its folder.

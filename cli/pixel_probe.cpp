@@ -5,6 +5,7 @@
 #include "hone/core/error.h"
 #include "hone/core/graph/executor.h"
 #include "hone/core/pass/pass_type.h"
+#include "hone/core/scene/camera_path.h"
 
 #include <nlohmann/json.hpp>
 
@@ -147,7 +148,9 @@ PixelProbe::PixelProbe(const Setup& setup)
     executor_ = std::make_unique<Executor>(makeProbeGraph(tracingNode(graph), catalog), catalog,
                                            devices, setup.seed);
     executor_->setScene(scene_);
-    executor_->setCamera(makeCamera(scene_.camera(setup.camera)));
+    executor_->setCamera(makeCamera(setup.path.empty()
+                                        ? scene_.camera(setup.camera)
+                                        : cameraAt(cameraPath(scene_, setup.path), setup.time)));
     executor_->setExtent(setup.extent);
 }
 

@@ -29,6 +29,8 @@ public:
         Overrides overrides;
         std::string scene;
         std::string camera;
+        std::string path; ///< "" = the camera, else where it is on the path:
+        float time = 0;   ///< seconds
         uvec2 extent{0, 0};
         std::uint64_t seed = 0;
         std::vector<std::string> plugins; ///< files that offer backends

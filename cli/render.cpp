@@ -11,9 +11,12 @@
 
 #include "hone/core/image/atomic_file.h"
 #include "hone/core/image/compare.h"
+#include "hone/core/scene/camera_path.h"
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <iomanip>
 #include <optional>
@@ -94,15 +97,83 @@ void summarise(const Json& report, const Console& console) {
     err << "\n" << std::defaultfloat;
 }
 
+/// A place on a camera path; of a single picture neither.
+struct PathPlace {
+    std::string path;
+    std::string time; ///< seconds; read back, it is the same float
+};
+
 /// What it takes to make the image again; compare reads it.
-Provenance provenanceOf(const Stage& stage, const RenderArguments& arguments) {
+Provenance provenanceOf(const Stage& stage, const RenderArguments& arguments,
+                        const PathPlace& place) {
     std::string parameters;
     for (const auto& [name, value] : arguments.overrides)
         parameters += name + "=" + value + "\n";
-    return {{"hone.graph", arguments.graph},         {"hone.parameters", parameters},
-            {"hone.scene", stage.scene.name},        {"hone.camera", arguments.camera},
-            {"hone.backend", backendOf(stage).name}, {"hone.seed", std::to_string(arguments.seed)},
+    return {{"hone.graph", arguments.graph},
+            {"hone.parameters", parameters},
+            {"hone.scene", stage.scene.name},
+            {"hone.camera", arguments.camera},
+            {"hone.path", place.path},
+            {"hone.time", place.time},
+            {"hone.backend", backendOf(stage).name},
+            {"hone.seed", std::to_string(arguments.seed)},
             {"hone.version", HONE_VERSION}};
+}
+
+double msSince(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+        .count();
+}
+
+/// How often each node ran, in the order of the executor's reports.
+std::vector<std::uint64_t> runsOf(const Executor& executor) {
+    std::vector<std::uint64_t> runs;
+    for (const NodeReport& node : executor.nodes())
+        runs.push_back(node.runs);
+    return runs;
+}
+
+/// Renders and writes the pictures along a camera path. Returns a report of each, whose passes
+/// count the runs for this picture alone. Ends after a picture that a signal cut.
+Json renderFrames(Stage& stage, const RenderArguments& arguments, const Console& console) {
+    const CameraPath path = cameraPath(stage.scene, arguments.path);
+    const std::size_t digits =
+        std::max<std::size_t>(4, std::to_string(arguments.frames - 1).size());
+    Json frames = Json::array();
+    std::vector<std::uint64_t> runs_before = runsOf(*stage.executor);
+    for (uint frame = 0; frame < arguments.frames; ++frame) {
+        const float time = frameTime(path, frame, arguments.frames);
+        stage.executor->setCamera(makeCamera(cameraAt(path, time)));
+        const auto begin = std::chrono::steady_clock::now();
+        runWithProgress(stage, arguments, console);
+        const double frame_ms = msSince(begin);
+
+        char time_text[64];
+        const auto [end, error] = std::to_chars(time_text, std::end(time_text), time);
+        std::string number = std::to_string(frame);
+        number.insert(0, digits - number.size(), '0');
+        const std::vector<std::string> files = writeOutputs(
+            *stage.executor, arguments.output_directory,
+            provenanceOf(stage, arguments, {path.name, std::string(time_text, end)}), number);
+
+        const Json whole = report(stage, arguments, frame_ms, files);
+        Json picture{{"frame", frame}, {"time", time}};
+        for (const char* key : {"passes", "frame_ms", "error_pixels", "error_share", "rays",
+                                "iterations", "stop", "outputs"})
+            picture[key] = whole[key];
+        const std::vector<std::uint64_t> runs = runsOf(*stage.executor);
+        for (std::size_t i = 0; i < runs.size(); ++i)
+            picture["passes"][i]["runs"] = runs[i] - runs_before[i];
+        runs_before = runs;
+        if (!arguments.quiet)
+            console.err << "frame " << number << ": " << std::fixed << std::setprecision(1)
+                        << frame_ms << " ms\n"
+                        << std::defaultfloat;
+        frames.push_back(std::move(picture));
+        if (InterruptGuard::requested() != 0)
+            break;
+    }
+    return frames;
 }
 
 } // namespace
@@ -123,13 +194,23 @@ int render(const RenderArguments& arguments, const Console& console) {
         if (!areCopiesAllowed(stage->executor->copies(), arguments.max_copies, console.err))
             return kTargetNotMet;
     }
-    runWithProgress(*stage, arguments, console);
-    const double frame_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-
-    std::vector<std::string> paths =
-        writeOutputs(*stage->executor, arguments.output_directory, provenanceOf(*stage, arguments));
-    Json result = report(*stage, arguments, frame_ms, paths);
+    std::vector<std::string> paths;
+    Json result;
+    if (arguments.frames > 0) {
+        const Json frames = renderFrames(*stage, arguments, console);
+        for (const Json& frame : frames)
+            for (const Json& path : frame["outputs"])
+                paths.push_back(path.get<std::string>());
+        result = report(*stage, arguments, msSince(begin), paths);
+        result["path"] = cameraPath(stage->scene, arguments.path).name;
+        result["frames"] = frames;
+    } else {
+        runWithProgress(*stage, arguments, console);
+        const double frame_ms = msSince(begin);
+        paths = writeOutputs(*stage->executor, arguments.output_directory,
+                             provenanceOf(*stage, arguments, {}));
+        result = report(*stage, arguments, frame_ms, paths);
+    }
     if (stage->recorder != nullptr) {
         stage->recorder->finish();
         result["record"] = {{"path", arguments.record},
