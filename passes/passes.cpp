@@ -6,6 +6,7 @@ namespace hone {
 void registerPasses(PassRegistry& registry) {
     registry.add(accumulatePass());
     registry.add(blendPass());
+    registry.add(cab10ErrorPass());
     registry.add(combinePass());
     registry.add(depthOfFieldPass());
     registry.add(dofErrorPass());

@@ -8,6 +8,7 @@ namespace hone {
 // Each in its folder; the manual page is the top comment of its .cpp.
 [[nodiscard]] PassType accumulatePass();
 [[nodiscard]] PassType blendPass();
+[[nodiscard]] PassType cab10ErrorPass();
 [[nodiscard]] PassType combinePass();
 [[nodiscard]] PassType depthOfFieldPass();
 [[nodiscard]] PassType dofErrorPass();
