@@ -26,6 +26,7 @@ void registerPasses(PassRegistry& registry) {
     registry.add(sortPass());
     registry.add(tonemapPass());
     registry.add(tracePass());
+    registry.add(ypg01WeightPass());
 }
 
 } // namespace hone

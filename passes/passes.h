@@ -28,6 +28,7 @@ namespace hone {
 [[nodiscard]] PassType sortPass();
 [[nodiscard]] PassType tonemapPass();
 [[nodiscard]] PassType tracePass();
+[[nodiscard]] PassType ypg01WeightPass();
 
 /// Adds every pass that hone ships.
 void registerPasses(PassRegistry& registry);
