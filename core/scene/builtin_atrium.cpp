@@ -278,6 +278,7 @@ void addFountain(Scene& scene, const Materials& m) {
         addInstance(scene, "knot", addMesh(scene, knotPart(kKnot), m.silver), placed(center, 24));
     scene.probes.push_back({center, knot});
     scene.instances[knot].probe = 0;
+    scene.task_objects = {knot};
     scene.instances[water].probe = 0;
 }
 

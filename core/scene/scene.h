@@ -73,6 +73,7 @@ struct Scene {
 
     std::vector<CameraDesc> cameras; ///< at least one after finishScene
     std::vector<CameraPath> paths;
+    std::vector<uint> task_objects; ///< instances that whoever looks at the picture looks for
     std::vector<std::string> instance_names;
     std::vector<std::string> material_names;
     std::string name;                  ///< what the user asked for: a path or builtin:atrium

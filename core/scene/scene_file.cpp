@@ -385,6 +385,17 @@ Probe readProbe(const Object& object, const Scene& scene) {
     return probe;
 }
 
+/// The instances of that name, or of the node of that name.
+void readTaskObject(const Object& root, const std::string& name, const std::string& pointer,
+                    Scene& scene) {
+    const std::size_t before = scene.task_objects.size();
+    for (uint i = 0; i < scene.instance_names.size(); ++i)
+        if (scene.instance_names[i] == name || scene.instance_names[i].starts_with(name + "/"))
+            scene.task_objects.push_back(i);
+    if (scene.task_objects.size() == before)
+        root.failName(pointer, "no instance is called", name, scene.instance_names);
+}
+
 void changeMaterial(const Object& object, Material& material) {
     if (object.has("base_color"))
         material.base_color = object.color("base_color", 1.0f);
@@ -440,6 +451,8 @@ void readModel(const Object& root, Scene& scene) {
     scene.version = 0; // to be finished again, with what this file adds
     if (root.has("probes"))
         scene.probes.clear();
+    if (root.has("task_objects"))
+        scene.task_objects.clear();
 }
 
 } // namespace
@@ -454,7 +467,7 @@ bool readSceneFile(const std::string& name, Scene& scene) {
     const Json json = parse(name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     const Object root(name, "", json,
                       {"$schema", "doc", "model", "cameras", "paths", "lights", "environment",
-                       "probes", "materials"});
+                       "probes", "task_objects", "materials"});
     readModel(root, scene);
 
     std::vector<CameraDesc> cameras;
@@ -475,6 +488,11 @@ bool readSceneFile(const std::string& name, Scene& scene) {
     root.each("probes", [&](const Json& element, const std::string& pointer) {
         scene.probes.push_back(
             readProbe(Object(name, pointer, element, {"position", "object"}), scene));
+    });
+    root.each("task_objects", [&](const Json& element, const std::string& pointer) {
+        if (!element.is_string())
+            root.fail(pointer, "expected the name of an instance");
+        readTaskObject(root, element.get<std::string>(), pointer, scene);
     });
     if (root.has("environment")) {
         const Object object(name, "/environment", root.require("environment"),

@@ -25,6 +25,8 @@ namespace hone {
 ///   which emits to the side that cross(edge_u, edge_v) points to.
 /// - "environment": {"zenith", "horizon", "ground", "ambient"}, radiance, each 0 if absent.
 /// - "probes": [{"position", "object"?: the instance that uses it and is left out of it}].
+/// - "task_objects": ["NAME"], the instances that someone who looks at the picture looks for;
+///   a node of several primitives is the instances NAME/0, NAME/1, ..., which NAME names together.
 /// - "materials": {"NAME": {"mirror"?: reflectance at normal incidence, 0 = none, "base_color"?,
 ///   "emission"?: radiance, "two_sided"?}}, changes to the model's.
 ///

@@ -124,6 +124,15 @@ TEST_F(SceneFile, RefusesALensThatSaysTooMuchOrTooLittle) {
     expectError(lens(R"("focus": 0, "aperture": 1)"), "expected more than 0");
 }
 
+TEST_F(SceneFile, NamesTheObjectsOfATask) {
+    const Scene scene = load(R"({"model": "builtin:planar_mirror", "task_objects": ["mirror"]})");
+    ASSERT_EQ(scene.task_objects.size(), 1u);
+    EXPECT_EQ(scene.instance_names[scene.task_objects[0]], "mirror");
+    expectError(R"({"model": "builtin:planar_mirror", "task_objects": ["mirrow"]})",
+                "/task_objects/0: no instance is called \"mirrow\". Did you mean \"mirror\"?");
+    expectError(R"({"task_objects": [3]})", "/task_objects/0: expected the name");
+}
+
 TEST_F(SceneFile, ReadsCameraPaths) {
     const Scene scene = load(R"({"paths": [
         {"name": "still", "keys": [{"time": -1, "position": [0, 0, 5], "target": [0, 0, 0]}]},
