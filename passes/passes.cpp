@@ -7,6 +7,7 @@ void registerPasses(PassRegistry& registry) {
     registry.add(accumulatePass());
     registry.add(blendPass());
     registry.add(cab10ErrorPass());
+    registry.add(ckc03WeightPass());
     registry.add(combinePass());
     registry.add(depthOfFieldPass());
     registry.add(dofErrorPass());

@@ -9,6 +9,7 @@ namespace hone {
 [[nodiscard]] PassType accumulatePass();
 [[nodiscard]] PassType blendPass();
 [[nodiscard]] PassType cab10ErrorPass();
+[[nodiscard]] PassType ckc03WeightPass();
 [[nodiscard]] PassType combinePass();
 [[nodiscard]] PassType depthOfFieldPass();
 [[nodiscard]] PassType dofErrorPass();
