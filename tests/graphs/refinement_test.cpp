@@ -89,15 +89,12 @@ TEST_P(Refinement, BlursNothingForAPinhole) {
     EXPECT_TRUE(areSameBits(raster(*sir), raster(*dof)));
 }
 
-TEST_P(Refinement, EndsAtTheTracedImageWhateverFindsSoftShadows) {
-    const std::unique_ptr<Executor> prt = load("prt");
-    prt->setParameter("samples", "2");
-    const std::vector<vec3> traced = colorOf(*prt);
-    for (const char* graph : {"soft_shadows", "kbm10"}) {
-        const std::unique_ptr<Executor> refined = load(graph);
-        refined->setParameter("samples", "2");
-        refined->setParameter("batch", "100");
-        refined->setParameter("scope", "all");
+TEST_P(Refinement, EndsAtTheTracedImageByEveryRuleForTheOrder) {
+    const std::vector<vec3> traced = colorOf(*load("prt", {{"samples", "3"}}));
+    for (const char* graph :
+         {"paper_literal", "paper_corrected", "cab10", "soft_shadows", "kbm10"}) {
+        const std::unique_ptr<Executor> refined =
+            load(graph, {{"samples", "3"}, {"batch", "700"}, {"scope", "all"}});
         EXPECT_TRUE(areSameBits(colorOf(*refined), traced)) << graph;
     }
 }
