@@ -12,7 +12,8 @@ namespace hone {
 ///
 /// - "model": a .gltf or .glb, relative to the scene file, or "builtin:NAME". May be absent.
 /// - "cameras": [{"name", "position", "target", "up"?: [0,1,0], "fov_y"?: 60 degrees, "near"?:
-/// 0.01}];
+/// 0.01, "lens"?: {"aperture": diameter in metres, "focus": view depth in metres} or
+/// {"focal_length", "f_number", "focus"}}];
 ///   they come before the model's own, so the first is the default.
 /// - "paths": [{"name", "keys": [{"time": seconds, ascending, and what a camera has but "name"}]}],
 ///   camera paths, which come before the model's own; the first is the default.
@@ -20,9 +21,12 @@ namespace hone {
 ///   {"type": "point", "position", "intensity": W/sr, "range"?: metres, 0 = endless};
 ///   {"type": "spot", "position", "direction", "intensity", "inner"?: 0, "outer"?: 45 degrees, half
 ///   angles of the cone, "range"?};
-///   {"type": "directional", "direction": the way the light travels, "irradiance": W/m^2};
+///   {"type": "directional", "direction": the way the light travels, "irradiance": W/m^2, "angle"?:
+///   degrees that it fills in the sky};
 ///   {"type": "rectangle", "center", "edge_u", "edge_v": whole edges, "radiance": W/(sr m^2)},
-///   which emits to the side that cross(edge_u, edge_v) points to.
+///   which emits to the side that cross(edge_u, edge_v) points to;
+///   {"type": "disc", "center", "direction": the side that it emits to, "radius", "radiance"};
+///   {"type": "sphere", "center", "radius", "radiance"}; any of them "casts_shadow"?: true.
 /// - "environment": {"zenith", "horizon", "ground", "ambient"}, radiance, each 0 if absent.
 /// - "probes": [{"position", "object"?: the instance that uses it and is left out of it}].
 /// - "task_objects": ["NAME"], the instances that someone who looks at the picture looks for;
