@@ -122,7 +122,7 @@ struct BenchPartsArguments : SessionArguments {
 };
 
 struct BenchTable1Arguments : SessionArguments {
-    std::string graph = "sir"; ///< what refines
+    std::string graph = "table1"; ///< what refines
     std::string scene;
     std::string camera; ///< whose field of view and lens the chosen views take
     std::vector<uvec2> sizes{{800, 600}, {1024, 768}, {1920, 1080}};
