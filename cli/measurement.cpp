@@ -227,6 +227,20 @@ std::string curvesAsCsv(const Measurement& measurement) {
     return text.str();
 }
 
+namespace {
+
+/// A number of a table, `width` columns; a dash where it is not defined.
+std::string cell(double value, std::size_t width) {
+    if (std::isnan(value))
+        return std::string(width - 1, ' ') + "–";
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%.4f", value);
+    const std::string text(buffer);
+    return std::string(width - std::min(text.size(), width), ' ') + text;
+}
+
+} // namespace
+
 void printTable(const Measurement& measurement, std::ostream& out) {
     const auto line = [&out](const char* pattern, auto... values) {
         char buffer[256];
@@ -253,12 +267,14 @@ void printTable(const Measurement& measurement, std::ostream& out) {
         };
         const OverViews recall = over("recall"), recall_at_8 = over("recall", 8), auc = over("auc"),
                         ranks = over("spearman"), gain = over("gain");
-        line("%-*s  %7.4f %7.4f  %7.4f %7.4f  %7.4f  %7.4f  %7.4f %7.4f  %7.4f %7.4f  %7.4f %7.4f  "
-             "%7.4f  %7.3f\n",
-             name_width, measurement.names[metric].c_str(), recall.mean, recall.worst,
-             recall_at_8.mean, recall_at_8.worst, over("precision").mean, over("flagged").mean,
-             auc.mean, auc.worst, ranks.mean, ranks.worst, gain.mean, gain.worst,
-             over("gain_by_rays").mean, over("calibration_slope").mean);
+        line("%-*s ", name_width, measurement.names[metric].c_str());
+        for (const OverViews& pair : {recall, recall_at_8})
+            out << cell(pair.mean, 8) << cell(pair.worst, 8) << " ";
+        out << cell(over("precision").mean, 8) << " " << cell(over("flagged").mean, 8) << " ";
+        for (const OverViews& pair : {auc, ranks, gain})
+            out << cell(pair.mean, 8) << cell(pair.worst, 8) << " ";
+        out << cell(over("gain_by_rays").mean, 8) << " " << cell(over("calibration_slope").mean, 8)
+            << "\n";
     }
     // Orders that know nothing: random is 0 by definition.
     for (const char* name : {"scanline", "checkerboard"}) {
@@ -268,8 +284,8 @@ void printTable(const Measurement& measurement, std::ostream& out) {
                 if (order.name == name && hasVisibleError(view))
                     gains.push_back(order.gain);
         const OverViews gain = overViews(gains, Better::kGreater);
-        line("%-*s  %*s  %7.4f %7.4f\n", name_width, name,
-             15 + 2 + 15 + 2 + 7 + 2 + 7 + 2 + 15 + 2 + 15, "", gain.mean, gain.worst);
+        line("%-*s %*s ", name_width, name, 16 + 1 + 16 + 1 + 8 + 1 + 8 + 1 + 16 + 1 + 16, "");
+        out << cell(gain.mean, 8) << cell(gain.worst, 8) << "\n";
     }
     for (const ViewMeasurement& view : measurement.views) {
         line("%s: MSE %.3g, %.1f %% of the pixels above 1/255", view.name.c_str(), view.mse,
