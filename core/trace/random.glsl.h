@@ -38,16 +38,3 @@ uvec2 scrambledSobol(uint index, uvec2 scramble) {
     }
     return bits;
 }
-
-/// A point of the unit square to one of the unit disc: areas keep their ratios and neighbours stay
-/// neighbours. (Shirley and Chiu, A Low Distortion Map between Disk and Square, 1997.)
-vec2 concentricDisc(vec2 square) {
-    float x = 2.0f * square.x - 1.0f;
-    float y = 2.0f * square.y - 1.0f;
-    if (x == 0.0f && y == 0.0f)
-        return vec2(0.0f, 0.0f);
-    bool is_wide = abs(x) > abs(y);
-    float radius = is_wide ? x : y;
-    float angle = is_wide ? 0.785398163f * (y / x) : 1.570796327f - 0.785398163f * (x / y);
-    return radius * vec2(cos(angle), sin(angle));
-}

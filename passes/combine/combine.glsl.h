@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hone/passes/shading/sanitised.glsl.h"
 
 struct Params {
     uint mode;
@@ -16,13 +17,6 @@ HONE_CONST uint kMax = 2u;
 HONE_CONST uint kNoisyOr = 3u;
 HONE_CONST uint kSum = 4u;
 HONE_CONST float kLargest = 3.402823466e38f;
-
-/// What an error must be: NaN and infinity say that a metric failed and count as 1, never as 0.
-float sanitised(float x) {
-    if ((floatBitsToUint(x) & 0x7f800000u) == 0x7f800000u)
-        return 1.0f;
-    return x > 0.0f ? x : 0.0f;
-}
 
 float weightOf(uint metric) {
     return metric < 4u ? params.weights_first[metric] : params.weights_last[metric - 4u];

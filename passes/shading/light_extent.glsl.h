@@ -4,6 +4,8 @@
 // and metrics ask which part of them is hidden; what light they send is directLight()'s matter.
 // Kernel source: included flat by shading.glsl.h; needs no buffers.
 
+#include "hone/core/trace/disc.glsl.h"
+
 HONE_CONST float kPi = 3.14159265f;
 
 /// Whether a light is more than a point (directional: more than a direction), so that its shadows
@@ -55,18 +57,6 @@ LightExtent lightExtent(Light light, vec3 position) {
     result.half_u = light.radius * right;
     result.half_v = light.radius * cross(right, toward);
     return result;
-}
-
-/// The square [-1,1]^2 onto the unit disc, shares of area kept (Shirley and Chiu, A Low Distortion
-/// Map Between Disk and Square, 1997).
-vec2 discFromSquare(vec2 square) {
-    if (square.x == 0.0f && square.y == 0.0f)
-        return vec2(0.0f);
-    bool is_flat = abs(square.x) > abs(square.y);
-    float radius = is_flat ? square.x : square.y;
-    float angle = is_flat ? 0.25f * kPi * (square.y / square.x)
-                          : 0.5f * kPi - 0.25f * kPi * (square.x / square.y);
-    return radius * vec2(cos(angle), sin(angle));
 }
 
 /// The point of a light at `square` in [-1,1]^2: equal areas of the square are equal areas of the

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/core/scene/camera.glsl.h"
+#include "hone/core/trace/disc.glsl.h"
 #include "hone/core/trace/random.glsl.h"
 
 #include "hone/passes/trace/path.glsl.h"
@@ -24,7 +25,7 @@ vec2 lensPoint(uint pixel, uint sample_number) {
     // Numbers that no light of no bounce has (trace_shade).
     uvec4 random = pcg4d(uvec4(pixel, kNone, kNone ^ params.seed_high, params.seed_low));
     uvec2 bits = scrambledSobol(sample_number, uvec2(random.x, random.y));
-    return concentricDisc(vec2(unitFloat(bits.x), unitFloat(bits.y)));
+    return discFromSquare(2.0f * vec2(unitFloat(bits.x), unitFloat(bits.y)) - vec2(1.0f));
 }
 
 /// A request becomes a path for each sample. Through a pinhole they share one ray, through the

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hone/passes/shading/sanitised.glsl.h"
 
 struct Params {
     uvec2 extent;
@@ -17,16 +18,9 @@ HONE_CONST uint kMax = 1u;
 HONE_CONST uint kSum = 2u;
 HONE_CONST float kLargest = 1e30f;
 
-/// What an error must be: NaN and infinity say that a metric failed and count as 1, never as 0. What
-/// is huge is cut, so that sums stay finite.
-float sanitised(float x) {
-    if ((floatBitsToUint(x) & 0x7f800000u) == 0x7f800000u)
-        return 1.0f;
-    return clamp(x, 0.0f, kLargest);
-}
-
+/// What is huge is cut, so that sums stay finite.
 vec2 sanitisedError(vec2 error) {
-    return vec2(sanitised(error.x), sanitised(error.y));
+    return min(vec2(sanitised(error.x), sanitised(error.y)), vec2(kLargest));
 }
 
 vec3 blurSource(uint pixel) {

@@ -11,6 +11,8 @@ namespace {
 
 struct Library : HostKernel {
     Library() : HostKernel(Arguments{}, nullptr) {}
+#include "hone/core/trace/disc.glsl.h"
+
 #include "hone/core/trace/random.glsl.h"
 };
 
@@ -43,24 +45,24 @@ TEST(ScrambledSobol, StratifiesEveryPowerOfTwoWhateverTheScramble) {
             }
 }
 
-TEST(ConcentricDisc, KeepsTheShareOfAreas) {
+TEST(DiscFromSquare, KeepsTheShareOfAreas) {
     // The squares of side s around the middle become discs of radius s.
     Library library;
     constexpr int kSteps = 64;
     for (int row = 0; row < kSteps; ++row)
         for (int column = 0; column < kSteps; ++column) {
-            const vec2 square((static_cast<float>(column) + 0.5f) / kSteps,
-                              (static_cast<float>(row) + 0.5f) / kSteps);
-            const vec2 centred = 2.0f * square - 1.0f;
-            EXPECT_NEAR(glm::length(library.concentricDisc(square)),
-                        glm::max(glm::abs(centred.x), glm::abs(centred.y)), 1e-6f);
+            const vec2 square = 2.0f * vec2((static_cast<float>(column) + 0.5f) / kSteps,
+                                            (static_cast<float>(row) + 0.5f) / kSteps) -
+                                1.0f;
+            EXPECT_NEAR(glm::length(library.discFromSquare(square)),
+                        glm::max(glm::abs(square.x), glm::abs(square.y)), 1e-6f);
         }
     // Four sides to four quarters, and the middle stays.
-    EXPECT_LT(glm::distance(library.concentricDisc({1, 0.5f}), vec2(1, 0)), 1e-6f);
-    EXPECT_LT(glm::distance(library.concentricDisc({0.5f, 1}), vec2(0, 1)), 1e-6f);
-    EXPECT_LT(glm::distance(library.concentricDisc({0, 0.5f}), vec2(-1, 0)), 1e-6f);
-    EXPECT_LT(glm::distance(library.concentricDisc({0.5f, 0}), vec2(0, -1)), 1e-6f);
-    EXPECT_EQ(library.concentricDisc({0.5f, 0.5f}), vec2(0, 0));
+    EXPECT_LT(glm::distance(library.discFromSquare({1, 0}), vec2(1, 0)), 1e-6f);
+    EXPECT_LT(glm::distance(library.discFromSquare({0, 1}), vec2(0, 1)), 1e-6f);
+    EXPECT_LT(glm::distance(library.discFromSquare({-1, 0}), vec2(-1, 0)), 1e-6f);
+    EXPECT_LT(glm::distance(library.discFromSquare({0, -1}), vec2(0, -1)), 1e-6f);
+    EXPECT_EQ(library.discFromSquare({0, 0}), vec2(0, 0));
 }
 
 } // namespace
