@@ -39,7 +39,7 @@ public:
     Table1 run() {
         for (const uint samples : arguments_.samples) {
             Scene scene = loadScene(arguments_.scene);
-            CameraDesc like = scene.camera(arguments_.camera);
+            CameraDesc like = viewLike(scene);
             if (samples == 1) {
                 makeLightsPoints(scene);
                 like.aperture = 0;
@@ -67,6 +67,14 @@ public:
     }
 
 private:
+    /// The camera that was asked for; else the first with a lens, or without if there is none.
+    [[nodiscard]] const CameraDesc& viewLike(const Scene& scene) const {
+        if (arguments_.camera.empty())
+            for (const CameraDesc& camera : scene.cameras)
+                if (camera.aperture > 0)
+                    return camera;
+        return scene.camera(arguments_.camera);
+    }
     /// Runs with a camera a little beside the last one.
     void runMoved(Executor& executor, Camera camera) {
         // Contenders take turns, so two places would give each of them always the same.

@@ -248,7 +248,7 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     table1_app->add_option("--scene", table1_arguments.scene,
                            "scene (Sponza where it is there, else builtin:atrium)");
     table1_app->add_option("--camera", table1_arguments.camera,
-                           "whose field of view and lens the views take (the scene's first)");
+                           "whose field of view and lens the views take (the first with a lens)");
     addSizes(table1_app, table1_arguments.sizes);
     table1_app
         ->add_option("--samples", table1_arguments.samples,
