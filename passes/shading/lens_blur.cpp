@@ -28,14 +28,12 @@ constexpr Kernel kConfusion = makeKernel<Confusion>("confusion", spirv::confusio
 constexpr Kernel kBlurTiles = makeKernel<BlurTiles>("blur_tiles", spirv::blur_tiles);
 constexpr Kernel kBlurReach = makeKernel<BlurReach>("blur_reach", spirv::blur_reach);
 
-constexpr uint kTile = 16; ///< kBlurTile of lens_blur.glsl.h
-
 } // namespace
 
 void LensBlur::prepare(PassContext& context, float radius_limit) {
     const uvec2 extent = context.extent;
     const uint pixels = extent.x * extent.y;
-    const uvec2 tiles = (extent + (kTile - 1)) / kTile;
+    const uvec2 tiles = LensBlur::tiles(extent);
     tile_count_ = std::size_t{tiles.x} * tiles.y;
     Device& memory = *context.memory;
     if (confusion_.bytes() < pixels * sizeof(float))

@@ -55,10 +55,15 @@ struct BlurTap {
     float dy;
 };
 
+/// The tile that a pixel is in.
+uint blurTile(uint index, uvec2 extent) {
+    uint tiles_x = (extent.x + kBlurTile - 1u) / kBlurTile;
+    return index / extent.x / kBlurTile * tiles_x + index % extent.x / kBlurTile;
+}
+
 /// How far away, in pixels, something may be that spreads to this pixel; at most 1/2: nothing does.
 float blurReach(uint index, uvec2 extent) {
-    uint tiles_x = (extent.x + kBlurTile - 1u) / kBlurTile;
-    return blur_reach[index / extent.x / kBlurTile * tiles_x + index % extent.x / kBlurTile];
+    return blur_reach[blurTile(index, extent)];
 }
 
 /// Takes all pixels in reach, or as many as `taps` are, evenly spread; `taps` 0: all.

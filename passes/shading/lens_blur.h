@@ -15,6 +15,9 @@ inline constexpr float kBlurRadiusLimit = 64; ///< pixels
 /// Owns the buffers; belongs to one pass. Throws OutOfMemory.
 class LensBlur {
 public:
+    static constexpr uint kTile = 16; ///< side in pixels of the tiles that reach is known by
+    [[nodiscard]] static uvec2 tiles(uvec2 extent) { return (extent + (kTile - 1)) / kTile; }
+
     /// Encodes the work on context.chosen, from the pass's ports "depth" and "camera". Discs end at
     /// `radius_limit` pixels.
     void prepare(PassContext& context, float radius_limit);

@@ -31,6 +31,8 @@
 #include "hone/passes/passes.h"
 
 #include "hone_spirv/propagate.h"
+#include "hone_spirv/wrong_near.h"
+#include "hone_spirv/wrong_tiles.h"
 
 #include "hone/core/device/kernel.glsl.h"
 #include "hone/passes/shading/lens_blur.h"
@@ -42,7 +44,17 @@ struct PropagateKernel : HostKernel {
     using HostKernel::HostKernel;
 #include "hone/passes/error/propagate/propagate.glsl.h"
 };
+struct WrongTiles : HostKernel {
+    using HostKernel::HostKernel;
+#include "hone/passes/error/propagate/wrong_tiles.glsl.h"
+};
+struct WrongNear : HostKernel {
+    using HostKernel::HostKernel;
+#include "hone/passes/error/propagate/wrong_near.glsl.h"
+};
 constexpr Kernel kPropagate = makeKernel<PropagateKernel>("propagate", spirv::propagate);
+constexpr Kernel kWrongTiles = makeKernel<WrongTiles>("wrong_tiles", spirv::wrong_tiles);
+constexpr Kernel kWrongNear = makeKernel<WrongNear>("wrong_near", spirv::wrong_near);
 
 class PropagateError final : public RenderPass {
 public:
@@ -55,17 +67,29 @@ public:
                                              .mode = context.params->choice("mode"),
                                              .has_post = has_post ? 1u : 0u};
         blur_.prepare(context, params.radius_limit);
+        const uvec2 tiles = LensBlur::tiles(context.extent);
+        const uint tile_count = tiles.x * tiles.y;
+        if (wrong_near_.bytes() < tile_count * sizeof(uint)) {
+            wrong_tiles_ = context.memory->createBuffer(tile_count * sizeof(uint), "wrong_tiles");
+            wrong_near_ = context.memory->createBuffer(tile_count * sizeof(uint), "wrong_near");
+        }
         const auto [confusion, reach] = blur_.arguments();
         const Argument extra[] = {confusion,
                                   reach,
+                                  {"wrong_tiles", wrong_tiles_.view()},
+                                  {"wrong_near", wrong_near_.view()},
                                   {"shading_error", error},
                                   {"propagated", context.out("error").buffer},
                                   {"post", has_post ? context.in("post").buffer : error}};
+        context.dispatch(kWrongTiles, WrongTiles::Params{context.extent, tiles, LensBlur::kTile},
+                         tile_count, extra);
+        context.dispatch(kWrongNear, WrongNear::Params{tiles, LensBlur::kTile}, tile_count, extra);
         context.dispatch(kPropagate, params, context.extent.x * context.extent.y, extra);
     }
 
 private:
     LensBlur blur_;
+    Buffer wrong_tiles_, wrong_near_;
 };
 
 } // namespace

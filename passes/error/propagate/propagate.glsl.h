@@ -11,6 +11,7 @@ struct Params {
 HONE_PARAMS(Params)
 HONE_READ(vec2, shading_error)
 HONE_READ(vec2, post)
+HONE_READ(uint, wrong_near) // by tile: 0 where nothing wrong is in reach of the blur
 HONE_WRITE(vec2, propagated)
 
 HONE_CONST uint kPropagate = 0u;
@@ -36,7 +37,9 @@ void kernel(uint index) {
         window.extent = params.extent;
         window.taps = params.taps;
         window.radius_limit = params.radius_limit;
-        shading = vec2(lensBlurred(index, window));
+        // A blur of nothing but 0 is 0.
+        bool is_near = wrong_near[blurTile(index, params.extent)] != 0u;
+        shading = is_near ? vec2(lensBlurred(index, window)) : vec2(0.0f);
     }
     vec2 filter_error = vec2(0.0f);
     if (params.has_post != 0u)

@@ -64,6 +64,25 @@ TEST(PropagateError, SpreadsAWrongPixelOverItsDiscAndKeepsTheSum) {
     EXPECT_NEAR(sum.y, 1.0f, 1e-4f);
 }
 
+// Where no pixel is without an error nothing is passed over.
+TEST(PropagateError, PassesOverOnlyWhatNothingWrongReaches) {
+    std::vector<float> depth = roughDepth();
+    for (uint i = 0; i < kPixels; ++i)
+        if (i / 64 > 40)
+            depth[i] = 1.0f; // blurred over 48 pixels, three tiles
+    std::vector<vec2> few(kPixels, vec2(0)), all(kPixels, vec2(1e-30f));
+    for (const uint pixel : {5u, 20u * 64 + 33, 41u * 64 + 1, 63u * 64 + 63})
+        few[pixel] = all[pixel] = vec2(0.5f, 1.0f);
+    const std::vector<vec2> a = propagated(few, depth), b = propagated(all, depth);
+    uint reached = 0;
+    for (uint i = 0; i < kPixels; ++i) {
+        EXPECT_NEAR(a[i].x, b[i].x, 1e-7f) << i;
+        EXPECT_NEAR(a[i].y, b[i].y, 1e-7f) << i;
+        reached += a[i].y > 0.0f ? 1u : 0u;
+    }
+    EXPECT_GT(reached, 1000u);
+}
+
 TEST(PropagateError, KeepsTheBitsWhereNothingIsBlurred) {
     std::vector<vec2> error(kPixels);
     for (uint i = 0; i < kPixels; ++i)
