@@ -269,6 +269,12 @@ struct ShadowEstimate {
     bool is_certain;
 };
 
+/// Whether a position in texels is inside a face, and farther than the cone's margin from its end.
+bool isFarFromBorder(vec2 position) {
+    float most = shadow_maps[0] - 2.0f;
+    return position.x > 2.0f && position.y > 2.0f && position.x < most && position.y < most;
+}
+
 ShadowEstimate estimateShadow(uint light_index, Surface surface) {
     Light light = scene_lights[light_index];
     vec3 position = surface.position;
@@ -286,7 +292,11 @@ ShadowEstimate estimateShadow(uint light_index, Surface surface) {
     bool is_blocked = false;
     bool is_inside_light = false;
     MaskFrame frame = maskFrame(light, extent, own_face, own);
+    // All segments to a point are one, which is in another face's margin near the border only.
+    bool is_in_own_only = !hasExtent(light) && isFarFromBorder(own.position);
     for (uint face = 0u; face < faces && !is_blocked; ++face) {
+        if (is_in_own_only && face != own_face)
+            continue;
         float depth = own.is_box ? own.depth : cubeCoordinates(face, direction).z;
         vec2 of_face = rangeOfFace(first_face + face);
         if (of_face.x >= max(depth, of_face.y))
