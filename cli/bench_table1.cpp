@@ -48,11 +48,11 @@ public:
             console_.err << "choosing views of " << scene.name << "\n";
             const std::vector<ChosenView> views =
                 chooseViewsByShare(graph, session_, devices_, scene, like, kShares);
-            Executor refined(loadGraph(graph, session_.catalog(),
-                                       {{"batch", "0"},
-                                        {"scope", "flagged"},
-                                        {"visibility", arguments_.visibility},
-                                        {"samples", std::to_string(samples)}}),
+            Overrides flagged_at_once{
+                {"batch", "0"}, {"scope", "flagged"}, {"samples", std::to_string(samples)}};
+            if (arguments_.visibility == "rays")
+                flagged_at_once.emplace_back("visibility", "rays");
+            Executor refined(loadGraph(graph, session_.catalog(), flagged_at_once),
                              session_.catalog(), devices_);
             Executor traced(loadGraph(findGraph("prt"), session_.catalog(),
                                       {{"samples", std::to_string(samples)}}),
@@ -75,6 +75,7 @@ private:
                     return camera;
         return scene.camera(arguments_.camera);
     }
+
     /// Runs with a camera a little beside the last one.
     void runMoved(Executor& executor, Camera camera) {
         // Contenders take turns, so two places would give each of them always the same.
@@ -101,16 +102,15 @@ private:
         std::map<Table1Share, std::vector<double>> stage_ms;
         for (Executor* executor : {&refined, &traced})
             executor->setExtent(size);
-        const std::function<void()> contenders[] = {[&] {
-                                                        runMoved(refined, camera);
-                                                        std::map<Table1Share, double> now;
-                                                        for (const NodeReport& node :
-                                                             refined.nodes())
-                                                            now[shareOf(node.type)] += node.ms;
-                                                        for (const auto& [share, ms] : now)
-                                                            stage_ms[share].push_back(ms);
-                                                    },
-                                                    [&] { runMoved(traced, camera); }};
+        const auto refine = [&] {
+            runMoved(refined, camera);
+            std::map<Table1Share, double> now;
+            for (const NodeReport& node : refined.nodes())
+                now[shareOf(node.type)] += node.ms;
+            for (const auto& [share, share_ms] : now)
+                stage_ms[share].push_back(share_ms);
+        };
+        const std::function<void()> contenders[] = {refine, [&] { runMoved(traced, camera); }};
         const std::vector<std::vector<double>> ms = interleave(arguments_.repeats, contenders);
 
         row.error_share = static_cast<double>(refined.counters().get("error_pixels")) /

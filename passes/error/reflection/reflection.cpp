@@ -13,8 +13,8 @@
 //     5  k_o, the occlusion of the surface by its own object
 //
 // As the paper prints 3 and 4, they are greatest where the lookup is exact; the corrected form is
-// the default. Both forms of 3 and 4 depend on the angle of incidence only, so they order pixels
-// alike. expect = bound = E, but only 1 is never below the real error: 2 to 5 are 0 at pixels that
+// the default, in which 3 and 4 order pixels alike, for both grow with the angle of incidence.
+// expect = bound = E, but only 1 is never below the real error: 2 to 5 are 0 at pixels that
 // may be wrong.
 //
 // The paper leaves M open. Readings, by max_distance:
