@@ -66,8 +66,7 @@ void noteWriter(Compilation& c, ValueId id) {
     const PlannedValue& value = c.graph.values[id];
     if (value.writer != kNoId)
         c.reporter.note(c.written[value.writer]->name.place,
-                        "\"" + value.name + "\" is " + std::string(value.type.name) + ": " +
-                            std::string(value.type.doc));
+                        "\"" + value.name + "\" is " + describe(value.type));
 }
 
 void checkEdges(Compilation& c, NodeId id) {
@@ -85,8 +84,7 @@ void checkEdges(Compilation& c, NodeId id) {
             "E0401", c.edge_places[id][i],
             "cannot feed " + std::string(value.type.name) + " into " + std::string(port.type.name) +
                 ": \"" + value.name + "\" to \"" + node.name + "." + port.name + "\"",
-            fitting.empty() ? "nothing in this graph writes " + std::string(port.type.name) + " (" +
-                                  std::string(port.type.doc) + ")"
+            fitting.empty() ? "nothing in this graph writes " + describe(port.type)
                             : std::string(port.type.name) + " comes from " + quotedList(fitting));
         noteWriter(c, edge.value);
     }

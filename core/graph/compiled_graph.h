@@ -4,6 +4,7 @@
 #include "hone/core/graph/diagnostics.h"
 #include "hone/core/graph/graph_desc.h"
 #include "hone/core/pass/pass_type.h"
+#include "hone/core/pass/shader_pass.h"
 
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@ namespace hone {
 struct Catalog {
     const PassRegistry* passes = nullptr;
     const TraceBackendRegistry* trace_backends = nullptr;
+    const ShaderCompiler* shaders = nullptr; ///< null: passes of type "glsl" are refused
 };
 
 /// Overrides in the order given: {"batch", "4096"} sets a graph parameter, {"refine.trace.exact",

@@ -23,7 +23,8 @@ enum class ParamType : std::uint8_t { kBool, kUint, kFloat, kEnum };
 /// binding.
 struct ParamDecl {
     std::string name;
-    std::string doc; ///< what it does; unit and special values ("0 = no limit")
+    std::string doc;    ///< what it does; special values ("0 = no limit")
+    std::string unit{}; ///< "m", "px", "ms"; "" = none, or told in `doc`
     ParamType type = ParamType::kFloat;
     ParamValue fallback = 0.0f; ///< the default
     std::optional<double> min;  ///< numbers: inclusive

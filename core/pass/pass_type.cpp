@@ -115,6 +115,12 @@ PassType& PassType::backendParam(std::string param_name, std::string param_doc) 
     return *this;
 }
 
+PassType& PassType::unit(std::string of_last_param) {
+    HONE_ASSERT(!params.empty(), "unit() comes after the parameter it is of");
+    params.back().unit = std::move(of_last_param);
+    return *this;
+}
+
 PassType& PassType::into(std::size_t kernel_offset) {
     params.back().kernel_offset = kernel_offset;
     return *this;

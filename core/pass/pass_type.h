@@ -74,7 +74,8 @@ public:
     PassType& param(std::string param_name, uint fallback, Range range, std::string param_doc);
     PassType& param(std::string param_name, float fallback, Range range, std::string param_doc);
     PassType& param(std::string param_name, std::vector<std::string> choices,
-                    std::string param_doc); ///< first = default
+                    std::string param_doc);    ///< first = default
+    PassType& unit(std::string of_last_param); ///< "m", "px", "ms"
     PassType& backendParam(std::string param_name, std::string param_doc);
     /// The parameter declared last is also the kernel's: it is written to Params at this offset
     /// (offsetof).
@@ -95,8 +96,9 @@ public:
     [[nodiscard]] const OutPort* findOut(std::string_view port) const;
     [[nodiscard]] const ParamDecl* findParam(std::string_view param) const;
 
-    std::string name; ///< "error.shadow"
-    std::string doc;  ///< one sentence
+    std::string name;   ///< "error.shadow"
+    std::string doc;    ///< one sentence
+    std::string plugin; ///< who brought it; "" = hone
     std::vector<InPort> inputs;
     std::vector<OutPort> outputs;
     std::vector<ParamDecl> params;
