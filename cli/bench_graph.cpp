@@ -48,7 +48,8 @@ CompiledGraph makeBenchGraph(const Catalog& catalog) {
     outputs["display"] = "tonemap.display";
 
     std::vector<Diagnostic> diagnostics;
-    const GraphDesc desc = parseGraph("bench of " + path, graph.dump(2), diagnostics);
+    const GraphDesc desc =
+        parseGraph("bench of " + path, graph.dump(2), diagnostics, filesBeside(path));
     return compileOrThrow(desc, catalog, {}, std::move(diagnostics));
 }
 

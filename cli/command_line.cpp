@@ -167,6 +167,14 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     check_app->add_flag("--json", check_arguments.json, "one JSON object on standard output");
     chosen(check_app, [&] { return check(check_arguments, console); });
 
+    UpgradeArguments upgrade_arguments;
+    CLI::App* upgrade_app =
+        app.add_subcommand("upgrade", "rewrite graph files of older versions of the format");
+    upgrade_app->add_option("graphs", upgrade_arguments.graphs, "graph files")->required();
+    upgrade_app->add_flag("--print", upgrade_arguments.print,
+                          "print the new text instead of writing it");
+    chosen(upgrade_app, [&] { return upgrade(upgrade_arguments, console); });
+
     PassesArguments passes_arguments;
     CLI::App* passes_app =
         app.add_subcommand("passes", "what passes there are, or one pass's ports and parameters");

@@ -167,7 +167,13 @@ struct FitArguments : MeasureArguments {
     std::string output;          ///< graph file to write; "" = none
 };
 
+struct UpgradeArguments {
+    std::vector<std::string> graphs;
+    bool print = false; ///< the new text on standard output, instead of into the file
+};
+
 int check(const CheckArguments& arguments, const Console& console);
+int upgrade(const UpgradeArguments& arguments, const Console& console);
 int passes(const PassesArguments& arguments, const Console& console);
 int compare(const CompareArguments& arguments, const Console& console);
 int doctor(const DoctorArguments& arguments, const Console& console);

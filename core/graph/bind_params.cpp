@@ -10,18 +10,29 @@ namespace {
 
 class ParamBinder {
 public:
-    explicit ParamBinder(Compilation& c) : c_(&c) {}
+    ParamBinder(Compilation& c, const Overrides& overrides) : c_(&c), overrides_(&overrides) {}
 
-    void bind(const Overrides& overrides) {
-        declareParams();
-        overrideParams(overrides, true);
+    void bind() {
+        // Graphs come before those that they use, so a value is known before it is handed on.
+        for (ScopeId id = 0; id < c_->scopes.size(); ++id)
+            if (c_->scopes[id].graph != nullptr) {
+                declareParams(id);
+                if (c_->scopes[id].use != nullptr)
+                    feedGraph(id);
+                override([&](const std::string& path) {
+                    const PlannedParam* param = c_->graph.findParam(path);
+                    return param != nullptr && owns(id, *param);
+                });
+            }
         for (NodeId id = 0; id < c_->graph.nodes.size(); ++id) {
             if (c_->graph.nodes[id].loop != kNoId)
                 bindStopRules(id);
             else
                 bindPass(id);
         }
-        overrideParams(overrides, false);
+        bindConditions();
+        // Passes' own come last, because they win.
+        override([&](const std::string& path) { return c_->graph.findParam(path) == nullptr; });
         reportUnread();
     }
 
@@ -30,10 +41,15 @@ private:
         c_->reporter.error(problem.code, place, problem.message, problem.hint);
     }
 
-    void declareParams() {
-        for (const GraphParamDesc& desc : c_->desc.params) {
-            PlannedParam& param = c_->graph.params.emplace_back();
-            param.decl = desc.decl;
+    bool owns(ScopeId scope, const PlannedParam& param) const {
+        const auto id = static_cast<ParamId>(&param - c_->graph.params.data());
+        return std::ranges::any_of(c_->scopes[scope].params,
+                                   [&](const auto& entry) { return entry.second == id; });
+    }
+
+    void declareParams(ScopeId scope) {
+        for (const GraphParamDesc& desc : c_->scopes[scope].graph->params) {
+            PlannedParam& param = c_->graph.params[c_->scopes[scope].params.at(desc.name.text)];
             param.decl.choices = choicesOf(desc.decl, c_->catalog);
             param.value = desc.decl.fallback;
             if (desc.decl.min && desc.decl.max && *desc.decl.min > *desc.decl.max)
@@ -68,11 +84,34 @@ private:
             report(*problem, desc.default_place);
     }
 
-    /// Graph parameters first, because passes take their values; passes' own after that, because
-    /// they win.
-    void overrideParams(const Overrides& overrides, bool graph_params) {
-        for (const auto& [path, text] : overrides) {
-            if ((c_->graph.findParam(path) != nullptr) != graph_params)
+    /// Gives the parameters of a graph that is used as a pass the values that its user wrote.
+    void feedGraph(ScopeId id) {
+        const Scope& scope = c_->scopes[id];
+        for (const ParamText& text : scope.use->params) {
+            const auto found = scope.params.find(text.name.text);
+            if (found == scope.params.end()) {
+                markRead(scope.parent, text);
+                reportUnknown(text, namesOf(scope), "graph \"" + scope.use->name.text + "\"");
+                continue;
+            }
+            PlannedParam& param = c_->graph.params[found->second];
+            param.value = valueOf(scope.parent, text, param.decl,
+                                  "parameter \"" + text.name.text + "\" of graph \"" +
+                                      scope.use->name.text + "\"",
+                                  {.graph_param = found->second, .place = {}}, param.value);
+        }
+    }
+
+    static std::vector<std::string> namesOf(const Scope& scope) {
+        std::vector<std::string> names;
+        for (const auto& [name, param] : scope.params)
+            names.push_back(name);
+        return names;
+    }
+
+    template <class Concerns> void override(const Concerns& concerns) {
+        for (const auto& [path, text] : *overrides_) {
+            if (!concerns(path))
                 continue;
             std::vector<NodeId> changed;
             if (auto problem = assignParam(c_->graph, c_->catalog, path, text, changed)) {
@@ -82,27 +121,29 @@ private:
         }
     }
 
-    /// The graph parameter that "$name" means; null when there is none, which is then reported.
-    PlannedParam* findParam(const ParamText& text) {
-        const std::string name = std::get<std::string>(text.value).substr(1);
-        read_.insert(name);
-        std::vector<std::string> names;
-        for (PlannedParam& param : c_->graph.params) {
-            if (param.decl.name == name)
-                return &param;
-            names.push_back("$" + param.decl.name);
+    /// The graph parameter that "$name" means in a scope; null when there is none, which is then
+    /// reported.
+    PlannedParam* findParam(ScopeId scope, const std::string& name, const Place& place) {
+        const Scope& graph = c_->scopes[c_->graphOf(scope)];
+        if (const auto found = graph.params.find(name); found != graph.params.end()) {
+            read_.insert(found->second);
+            return &c_->graph.params[found->second];
         }
-        c_->reporter.error("E0505", text.place, "the graph has no parameter \"$" + name + "\"",
+        std::vector<std::string> names;
+        for (const std::string& known : namesOf(graph))
+            names.push_back("$" + known);
+        c_->reporter.error("E0505", place, "the graph has no parameter \"$" + name + "\"",
                            suggest("$" + name, names, "it has"));
         return nullptr;
     }
 
     /// The value that was written, or `fallback` if it was wrong. A reference becomes `use`.
-    ParamValue valueOf(const ParamText& text, const ParamDecl& decl, const std::string& whose,
-                       ParamUse use, const ParamValue& fallback) {
+    ParamValue valueOf(ScopeId scope, const ParamText& text, const ParamDecl& decl,
+                       const std::string& whose, ParamUse use, const ParamValue& fallback) {
         std::variant<ParamValue, ParamProblem> value = fallback;
         if (text.isReference()) {
-            PlannedParam* param = findParam(text);
+            PlannedParam* param =
+                findParam(scope, std::get<std::string>(text.value).substr(1), text.place);
             if (param == nullptr)
                 return fallback;
             value = convertParam(*param, decl, c_->catalog, whose);
@@ -119,25 +160,31 @@ private:
     }
 
     void bindPass(NodeId id) {
-        const PassDesc& desc = *c_->written[id];
+        const PassDesc& desc = *c_->written[id].desc;
+        const ScopeId scope = c_->written[id].scope;
         PlannedNode& node = c_->graph.nodes[id];
         if (node.type == nullptr) {
-            markRead(desc);
+            for (const ParamText& text : desc.params)
+                markRead(scope, text);
+            for (const InputDesc& input : desc.inputs)
+                for (const EdgeDesc& edge : input.edges)
+                    for (const ParamText& text : edge.params)
+                        markRead(scope, text);
             return;
         }
         for (const ParamText& text : desc.params) {
             const ParamDecl* decl = node.type->findParam(text.name.text);
             if (decl == nullptr) {
-                markRead(text);
-                reportUnknown(text, node.type->params,
-                              "pass \"" + node.name + "\" (" + node.type->name + ")");
+                markRead(scope, text);
+                reportUnknown(text, namesOf(node.type->params),
+                              "pass \"" + c_->nameOf(id) + "\" (" + node.type->name + ")");
                 continue;
             }
             const auto index = static_cast<std::uint32_t>(decl - node.type->params.data());
             node.params.set(
                 decl->name,
-                valueOf(text, *decl,
-                        "parameter \"" + decl->name + "\" of pass \"" + node.name + "\"",
+                valueOf(scope, text, *decl,
+                        "parameter \"" + decl->name + "\" of pass \"" + c_->nameOf(id) + "\"",
                         {.node = id, .param = index, .place = {}}, decl->fallback));
         }
         bindEdges(id);
@@ -146,12 +193,12 @@ private:
     void bindEdges(NodeId id) {
         PlannedNode& node = c_->graph.nodes[id];
         std::uint32_t index = 0;
-        for (const InputDesc& input : c_->written[id]->inputs) {
+        for (const InputDesc& input : c_->written[id].desc->inputs) {
             const InPort* port = node.type->findIn(input.port.text);
             for (std::size_t i = 0; i < input.edges.size(); ++i) {
                 if (port == nullptr || i >= InPort::kMaxEdges)
                     for (const ParamText& text : input.edges[i].params)
-                        markRead(text);
+                        markRead(c_->written[id].scope, text);
                 else
                     bindEdge(id, index++, *port, input.edges[i]);
             }
@@ -160,40 +207,39 @@ private:
 
     void bindEdge(NodeId id, std::uint32_t index, const InPort& port, const EdgeDesc& desc) {
         PlannedNode& node = c_->graph.nodes[id];
+        const ScopeId scope = c_->written[id].scope;
         PlannedEdge& edge = node.inputs[index];
+        const std::string into = "an edge into \"" + c_->nameOf(id) + "." + port.name + "\"";
         for (const ParamDecl& decl : port.edge_params)
             edge.params.push_back(decl.fallback);
         for (const ParamText& text : desc.params) {
             const auto decl = std::ranges::find(port.edge_params, text.name.text, &ParamDecl::name);
             if (decl == port.edge_params.end()) {
-                markRead(text);
-                reportUnknown(text, port.edge_params,
-                              "an edge into \"" + node.name + "." + port.name + "\"");
+                markRead(scope, text);
+                reportUnknown(text, namesOf(port.edge_params), into);
                 continue;
             }
             const auto param = static_cast<std::uint32_t>(decl - port.edge_params.begin());
             edge.params[param] = valueOf(
-                text, *decl,
-                "\"" + decl->name + "\" of an edge into \"" + node.name + "." + port.name + "\"",
+                scope, text, *decl, "\"" + decl->name + "\" of " + into,
                 {.node = id, .edge = index, .edge_param = param, .place = {}}, decl->fallback);
         }
     }
 
     void bindStopRules(NodeId id) {
-        const LoopDesc& desc = *c_->written[id]->loop;
-        const std::string& name = c_->graph.nodes[id].name;
+        const LoopDesc& desc = *c_->written[id].desc->loop;
         PlannedLoop& loop = c_->graph.loops[c_->graph.nodes[id].loop];
         for (std::uint32_t i = 0; i < loop.stop.size(); ++i)
             if (loop.stop[i].kind != StopRule::Kind::kEmpty)
-                loop.stop[i].limit =
-                    limitOf(desc.stop[i].rule, {.node = id, .stop_rule = i, .place = {}});
+                loop.stop[i].limit = limitOf(c_->written[id].scope, desc.stop[i].rule,
+                                             {.node = id, .stop_rule = i, .place = {}});
         if (!isBounded(loop))
             c_->reporter.error(
-                "E0601", desc.place, "loop \"" + name + "\" may never end",
+                "E0601", desc.place, "loop \"" + c_->nameOf(id) + "\" may never end",
                 "add { \"iterations\": 64 } (or \"rays\", \"ms\") above 0 to its \"stop\"");
     }
 
-    double limitOf(const ParamText& text, ParamUse use) {
+    double limitOf(ScopeId scope, const ParamText& text, ParamUse use) {
         ParamDecl decl;
         decl.name = text.name.text;
         decl.type = ParamType::kFloat;
@@ -208,7 +254,8 @@ private:
             }
             return std::get<double>(text.value);
         }
-        PlannedParam* param = findParam(text);
+        PlannedParam* param =
+            findParam(scope, std::get<std::string>(text.value).substr(1), text.place);
         if (param == nullptr)
             return 1;
         use.place = text.place;
@@ -223,47 +270,110 @@ private:
         return static_cast<double>(std::get<float>(param->value));
     }
 
-    void reportUnknown(const ParamText& text, const std::vector<ParamDecl>& decls,
-                       const std::string& what) {
+    /// What a `when` means; nothing, with a report, where it means nothing.
+    std::optional<Condition> readWhen(const WhenDesc& when, ScopeId scope) {
+        PlannedParam* param = findParam(scope, when.param.text.substr(1), when.param.place);
+        if (param == nullptr)
+            return std::nullopt;
+        param->is_switch = true;
+        Condition condition{static_cast<ParamId>(param - c_->graph.params.data()), {}};
+        const ParamType wanted = when.choices.empty() ? ParamType::kBool : ParamType::kEnum;
+        if (param->decl.type != wanted) {
+            c_->reporter.error("E0512", when.param.place,
+                               "\"" + when.param.text + "\" is of type " + name(param->decl.type) +
+                                   "; \"when\" needs " + name(wanted) + " here",
+                               wanted == ParamType::kBool
+                                   ? "for an enum write {\"" + when.param.text +
+                                         "\": [\"choice\", ...]}"
+                                   : "for a bool write \"" + when.param.text + "\" or \"!" +
+                                         when.param.text + "\"");
+            return std::nullopt;
+        }
+        if (when.choices.empty())
+            condition.on.emplace_back(!when.is_negated);
+        for (const Word& choice : when.choices) {
+            const auto value = readParam(param->decl, choice.text, c_->catalog,
+                                         "parameter \"" + when.param.text + "\"");
+            if (const ParamProblem* problem = std::get_if<ParamProblem>(&value))
+                report(*problem, choice.place);
+            else
+                condition.on.push_back(std::get<ParamValue>(value));
+        }
+        return condition;
+    }
+
+    /// A node runs when its own condition holds and those of all loops and graphs around it.
+    void bindConditions() {
+        std::vector<std::vector<Condition>> of_scope(c_->scopes.size());
+        const auto add = [&](std::vector<Condition>& conditions, const PassDesc& pass,
+                             ScopeId scope) {
+            if (pass.when)
+                if (std::optional<Condition> condition = readWhen(*pass.when, scope))
+                    conditions.push_back(std::move(*condition));
+        };
+        std::vector<NodeId> loop_of(c_->scopes.size(), kNoId);
+        for (const auto& [loop, body] : c_->loop_scopes)
+            loop_of[body] = loop;
+        for (ScopeId id = 0; id < c_->scopes.size(); ++id) {
+            const Scope& scope = c_->scopes[id];
+            if (scope.parent != kNoId)
+                of_scope[id] = of_scope[scope.parent];
+            if (scope.use != nullptr)
+                add(of_scope[id], *scope.use, scope.parent);
+            else if (loop_of[id] != kNoId)
+                add(of_scope[id], *c_->written[loop_of[id]].desc, scope.parent);
+        }
+        for (WrittenNode& node : c_->written) {
+            node.conditions = of_scope[node.scope];
+            add(node.conditions, *node.desc, node.scope);
+        }
+    }
+
+    static std::vector<std::string> namesOf(const std::vector<ParamDecl>& decls) {
         std::vector<std::string> names;
         for (const ParamDecl& decl : decls)
             names.push_back(decl.name);
+        return names;
+    }
+
+    void reportUnknown(const ParamText& text, const std::vector<std::string>& names,
+                       const std::string& what) {
         c_->reporter.error(
             "E0501", text.name.place, what + " has no parameter \"" + text.name.text + "\"",
             names.empty() ? "it has none" : suggest(text.name.text, names, "it has"));
     }
 
-    void markRead(const ParamText& text) {
-        if (text.isReference())
-            read_.insert(std::get<std::string>(text.value).substr(1));
-    }
-
-    void markRead(const PassDesc& pass) {
-        for (const ParamText& text : pass.params)
-            markRead(text);
-        for (const InputDesc& input : pass.inputs)
-            for (const EdgeDesc& edge : input.edges)
-                for (const ParamText& text : edge.params)
-                    markRead(text);
+    void markRead(ScopeId scope, const ParamText& text) {
+        const Scope& graph = c_->scopes[c_->graphOf(scope)];
+        if (!text.isReference())
+            return;
+        const auto found = graph.params.find(std::get<std::string>(text.value).substr(1));
+        if (found != graph.params.end())
+            read_.insert(found->second);
     }
 
     void reportUnread() {
-        for (const GraphParamDesc& param : c_->desc.params)
-            if (!read_.contains(param.decl.name))
-                c_->reporter.error("E0506", param.name.place,
-                                   "nothing reads parameter \"" + param.decl.name + "\"",
-                                   "write \"$" + param.decl.name +
-                                       "\" where it should count, or remove it");
+        for (const Scope& scope : c_->scopes)
+            for (const auto& [name, id] : scope.params)
+                if (!read_.contains(id)) {
+                    const auto desc = std::ranges::find(
+                        scope.graph->params, name,
+                        [](const GraphParamDesc& param) { return param.name.text; });
+                    c_->reporter.error(
+                        "E0506", desc->name.place, "nothing reads parameter \"" + name + "\"",
+                        "write \"$" + name + "\" where it should count, or remove it");
+                }
     }
 
     Compilation* c_;
-    std::set<std::string> read_;
+    const Overrides* overrides_;
+    std::set<ParamId> read_;
 };
 
 } // namespace
 
 void bindParams(Compilation& c, const Overrides& overrides) {
-    ParamBinder(c).bind(overrides);
+    ParamBinder(c, overrides).bind();
 }
 
 } // namespace hone

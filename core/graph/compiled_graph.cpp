@@ -6,11 +6,12 @@
 #include "hone/core/log.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace hone {
 
 CompiledGraph compile(const GraphDesc& desc, const Catalog& catalog, const Overrides& overrides,
-                      std::vector<Diagnostic>& diagnostics) {
+                      std::vector<Diagnostic>& diagnostics, std::uint64_t schedule_seed) {
     Compilation c(desc, catalog, diagnostics);
     if (!desc.is_readable)
         return std::move(c.graph);
@@ -18,16 +19,22 @@ CompiledGraph compile(const GraphDesc& desc, const Catalog& catalog, const Overr
     resolveEdges(c);
     checkTypes(c);
     bindParams(c, overrides);
-    orderNodes(c);
+    orderNodes(c, schedule_seed);
     const bool failed = std::ranges::any_of(
         diagnostics, [](const Diagnostic& d) { return d.severity == Severity::kError; });
     if (!failed) {
+        switchOff(c);
+    }
+    if (!c.reporter.failed() && !failed) {
         cullNodes(c);
         planMemory(c);
     }
-    // In the order of the file, so that a person reads it once from top to bottom.
-    std::ranges::stable_sort(diagnostics, [](const Diagnostic& a, const Diagnostic& b) {
-        return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+    // In the order of the file, so that a person reads it once from top to bottom; files that it
+    // uses after it.
+    const std::string& file = desc.source->file();
+    std::ranges::stable_sort(diagnostics, [&](const Diagnostic& a, const Diagnostic& b) {
+        return std::tuple(a.file != file, std::string_view(a.file), a.line, a.column) <
+               std::tuple(b.file != file, std::string_view(b.file), b.line, b.column);
     });
     return std::move(c.graph);
 }

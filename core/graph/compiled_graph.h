@@ -6,6 +6,7 @@
 #include "hone/core/pass/pass_type.h"
 #include "hone/core/pass/shader_pass.h"
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -88,10 +89,10 @@ struct PlannedCarry {
 };
 
 struct StopRule {
-    enum class Kind : std::uint8_t { kEmpty, kRays, kMs, kIterations };
+    enum class Kind : std::uint8_t { kEmpty, kBelow, kRays, kMs, kIterations };
     Kind kind = Kind::kIterations;
-    ValueId list = kNoId; ///< kEmpty
-    double limit = 0;     ///< the others; 0 = no limit
+    ValueId value = kNoId; ///< kEmpty: a list; kBelow: a Scalar
+    double limit = 0;      ///< all but kEmpty; 0 = no limit
 };
 
 struct PlannedLoop {
@@ -103,6 +104,14 @@ struct PlannedLoop {
     std::vector<NodeId> body;    ///< in order
     std::vector<ValueId> reads;  ///< outside values that the body and the initial values read
     std::uint32_t last_step = 0; ///< of its body
+};
+
+/// A value of the frame before: "pass.port@-1".
+struct PlannedHistory {
+    ValueId value = kNoId;
+    ValueId source = kNoId;   ///< copied in at the end of each frame
+    ValueId initial = kNoId;  ///< what it is in the first frame; kNoId: zeroes
+    NodeId begins_at = kNoId; ///< the first of CompiledGraph::order that needs it; kNoId: culled
 };
 
 struct PlannedValue {
@@ -135,7 +144,8 @@ struct ParamUse {
     std::uint32_t param = kNoId; ///< of the pass
     std::uint32_t edge = kNoId;  ///< or: of this edge ...
     std::uint32_t edge_param = kNoId;
-    std::uint32_t stop_rule = kNoId; ///< or: the limit of this loop's rule
+    std::uint32_t stop_rule = kNoId;   ///< or: the limit of this loop's rule
+    std::uint32_t graph_param = kNoId; ///< or: this parameter, of a graph that is used as a pass
     Place place;
 };
 
@@ -143,6 +153,7 @@ struct PlannedParam {
     ParamDecl decl; ///< choices filled in
     ParamValue value = 0.0f;
     std::vector<ParamUse> uses;
+    bool is_switch = false; ///< passes come and go with it: it cannot change once compiled
 };
 
 /// A checked and planned graph. Plain data; refers to the pass registry, which must outlive it.
@@ -153,11 +164,14 @@ struct CompiledGraph {
     std::vector<PlannedParam> params;
     std::vector<PlannedNode> nodes; ///< in the order of the file, a loop before its body
     std::vector<PlannedLoop> loops;
+    std::vector<PlannedHistory> histories;
     std::vector<PlannedValue> values;
     std::vector<PlannedMemory> memories;
     std::vector<NamedValue> inputs;  ///< types kScene, kCamera, kExtent
     std::vector<NamedValue> outputs; ///< in the order of the file
     std::vector<NodeId> order;       ///< outside loops
+    /// Of passes of type "glsl"; copies of a graph share them.
+    std::vector<std::shared_ptr<const PassType>> shader_types;
 
     [[nodiscard]] const PlannedNode* findNode(std::string_view node_name) const;
     [[nodiscard]] const PlannedParam* findParam(std::string_view param) const;
@@ -168,9 +182,14 @@ struct CompiledGraph {
 /// Checks a graph and plans it: names resolved, types and parameters checked, unused passes culled,
 /// order, lifetimes, shared memory. Opens no device, makes no pass. Immutable afterwards. All
 /// problems found are added to `diagnostics`; the result is only usable if none is an error.
+///
+/// Phases: resolve (names, edges), infer (types, parameters), order and cull, plan (memory,
+/// copies); parseGraph() did parse and upgrade, an Executor instantiates. A `schedule_seed` other
+/// than 0 takes another legal order than the file's, for tests: results must not depend on it.
 [[nodiscard]] CompiledGraph compile(const GraphDesc& desc, const Catalog& catalog,
                                     const Overrides& overrides,
-                                    std::vector<Diagnostic>& diagnostics);
+                                    std::vector<Diagnostic>& diagnostics,
+                                    std::uint64_t schedule_seed = 0);
 
 /// compile for a graph of which reading found `diagnostics`; throws GraphError with the whole
 /// report if anything is an error; warnings are logged.

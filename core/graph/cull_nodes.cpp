@@ -18,8 +18,10 @@ public:
             const ValueId id = open_.back();
             open_.pop_back();
             const NodeId writer = graph_->values[id].writer;
-            if (writer == kNoId)
+            if (writer == kNoId) {
+                needHistory(id);
                 continue;
+            }
             needNode(writer);
             if (const std::uint32_t loop = graph_->nodes[writer].loop; loop != kNoId)
                 needCarry(graph_->loops[loop], id);
@@ -49,8 +51,16 @@ private:
                 need(output.value);
         else
             for (const StopRule& rule : graph_->loops[node.loop].stop)
-                need(rule.list);
+                need(rule.value);
         needNode(node.parent);
+    }
+
+    void needHistory(ValueId id) {
+        for (const PlannedHistory& history : graph_->histories)
+            if (history.value == id) {
+                need(history.initial);
+                need(history.source);
+            }
     }
 
     void needCarry(const PlannedLoop& loop, ValueId id) {
@@ -83,6 +93,22 @@ std::vector<std::string> readersOf(const Compilation& c, NodeId id) {
     return result;
 }
 
+/// The first node outside loops that reads the value, itself or within.
+NodeId firstReader(const Compilation& c, ValueId value) {
+    for (const NodeId id : c.graph.order)
+        for (NodeId node = 0; node < c.graph.nodes.size(); ++node) {
+            const auto reads = [&](const PlannedEdge& edge) { return edge.value == value; };
+            if (c.isInside(node, id) && std::ranges::any_of(c.graph.nodes[node].inputs, reads))
+                return id;
+            if (const std::uint32_t loop = c.graph.nodes[node].loop;
+                loop != kNoId && c.isInside(node, id))
+                for (const PlannedCarry& carry : c.graph.loops[loop].carries)
+                    if (carry.initial == value || carry.next == value)
+                        return id;
+        }
+    return kNoId;
+}
+
 } // namespace
 
 void cullNodes(Compilation& c) {
@@ -93,6 +119,8 @@ void cullNodes(Compilation& c) {
         if (needs.isNeeded(id))
             continue;
         const std::vector<std::string> readers = readersOf(c, id);
+        if (!node.culled.empty())
+            continue; // switched off
         if (node.parent != kNoId && !needs.isNeeded(node.parent))
             node.culled = "its loop does not run";
         else if (readers.empty())
@@ -107,6 +135,8 @@ void cullNodes(Compilation& c) {
         for (PlannedCarry& carry : loop.carries)
             carry.is_culled = !c.graph.values[carry.value].is_needed;
     }
+    for (PlannedHistory& history : c.graph.histories)
+        history.begins_at = firstReader(c, history.value);
 }
 
 } // namespace hone

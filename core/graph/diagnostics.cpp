@@ -55,9 +55,8 @@ std::string format(const Diagnostic& diagnostic) {
     if (diagnostic.line != 0)
         result += excerpt(diagnostic);
     for (const Note& note : diagnostic.notes)
-        result += gutter + "= note: " +
-                  printable(at(note.line == 0 ? "" : diagnostic.file, note.line, note.column) +
-                            note.message) +
+        result += gutter +
+                  "= note: " + printable(at(note.file, note.line, note.column) + note.message) +
                   "\n";
     if (!diagnostic.hint.empty())
         result += gutter + "= help: " + printable(diagnostic.hint) + "\n";

@@ -12,6 +12,7 @@ enum class Severity : std::uint8_t { kWarning, kError };
 
 /// Another place that has to do with a problem: the other end of an edge, the first of two keys.
 struct Note {
+    std::string file{};
     std::size_t line = 0; ///< from 1; 0 = not in the file
     std::size_t column = 0;
     std::string message;

@@ -52,6 +52,7 @@ public:
         writeSaved();
         section("copies");
         writeCopies();
+        writeHistories();
         section("outputs");
         for (const NamedValue& output : graph_->outputs)
             line(output.name + " = " + graph_->values[output.value].name);
@@ -98,7 +99,11 @@ private:
         for (const StopRule& rule : loop.stop) {
             text += text.empty() ? "; until " : " or ";
             if (rule.kind == StopRule::Kind::kEmpty) {
-                text += graph_->values[rule.list].name + " is empty";
+                text += graph_->values[rule.value].name + " is empty";
+                continue;
+            }
+            if (rule.kind == StopRule::Kind::kBelow) {
+                text += graph_->values[rule.value].name + " is below " + number(rule.limit);
                 continue;
             }
             text += rule.limit == 0 ? "no limit of " : number(rule.limit) + " ";
@@ -188,6 +193,21 @@ private:
                     (carry.next_by == NextBy::kCopy || carry.next_by == NextBy::kStagedCopy))
                     line(arrow(carry.next, carry.value) + " after each iteration of " + node.name +
                          (carry.next_by == NextBy::kStagedCopy ? ", through scratch memory" : ""));
+        }
+    }
+
+    void writeHistories() {
+        for (const PlannedHistory& history : graph_->histories) {
+            if (history.begins_at == kNoId)
+                continue;
+            const std::string& before = graph_->nodes[history.begins_at].name;
+            if (history.initial != kNoId)
+                line(arrow(history.initial, history.value) + " before " + before +
+                     " in the first frame");
+            else
+                line("zeroes -> " + graph_->values[history.value].name + " before " + before +
+                     " in the first frame");
+            line(arrow(history.source, history.value) + " at the end of each frame");
         }
     }
 

@@ -17,7 +17,17 @@ Executor::State::State(CompiledGraph the_graph, const Catalog& the_catalog, Devi
       device(devices.raster != nullptr ? &devices.raster->encoder() : nullptr),
       kernels(device != nullptr && !devices.raster->info().is_software ? device : host),
       values(graph.values.size()), memories(graph.memories.size()), loops(graph.loops.size()),
-      tracers(*catalog.trace_backends, devices), nodes(graph.nodes.size()) {
+      histories(graph.histories.size()), tracers(*catalog.trace_backends, devices),
+      nodes(graph.nodes.size()) {
+    for (const NamedValue& input : graph.inputs)
+        if (const Shape shape = graph.values[input.value].type.shape;
+            shape != Shape::kScene && shape != Shape::kCamera && shape != Shape::kExtent)
+            throw GraphError(graph.file + ": graph \"" + graph.name + "\" has an input \"" +
+                             input.name + "\" of type " +
+                             std::string(graph.values[input.value].type.name) +
+                             ", so it cannot run alone; use it in another graph: { \"graph\": "
+                             "FILE, \"in\": { \"" +
+                             input.name + "\": ... } }");
     for (ValueId id = 0; id < values.size(); ++id)
         values[id].type = &graph.values[id].type;
     for (std::size_t i = 0; i < loops.size(); ++i) {
@@ -126,6 +136,11 @@ void Executor::setParameter(const std::string& path, const std::string& value) {
     for (NodeId id : changed)
         for (; id != kNoId; id = state_->graph.nodes[id].parent)
             ++state_->nodes[id].params_version;
+}
+
+void Executor::resetHistory() {
+    for (HistoryState& history : state_->histories)
+        history.has_begun = false;
 }
 
 void Executor::run(const RunOptions& options) {

@@ -32,6 +32,9 @@ struct RunOptions {
     /// Called after each iteration of an outermost loop that did something; returns false to stop
     /// there ("cancelled"). May be empty.
     std::function<bool(const LoopRecord&)> on_iteration{};
+    /// For tests: fills what a pass is about to write with NaN bits, so that whoever reads what
+    /// was not written, or what another value's memory held, is seen.
+    bool poison_outputs = false;
 };
 
 /// What one node did, for reports and tests.
@@ -52,6 +55,8 @@ struct NodeReport {
 /// float >= 0; LoopRecord::worst_expect).
 class Executor {
 public:
+    /// Throws GraphError for a graph that can only be used as a pass of another, for its inputs are
+    /// more than scene, camera and extent.
     Executor(CompiledGraph graph, const Catalog& catalog, Devices devices, std::uint64_t seed = 0);
     ~Executor();
     Executor(const Executor&) = delete;
@@ -69,9 +74,13 @@ public:
     /// Does before its time what the next run() would do at its first need: brings the scene to the
     /// devices and builds the tracers that passes name. Throws what run() throws.
     void prepare();
-    /// Runs to the end of every loop, or to a limit. Throws DeviceError, SceneError, OutOfMemory. A
+    /// One frame: runs to the end of every loop, or to a limit. At its end values of the last frame
+    /// ("pass.port@-1") become those of this one. Throws DeviceError, SceneError, OutOfMemory. A
     /// steady-state run (nothing grew) does no heap allocation of its own.
     void run(const RunOptions& options = {});
+
+    /// Values of the last frame begin anew in the next run(): after a cut, or for another scene.
+    void resetHistory();
 
     /// The value of a graph output after run(); its version is 0 if a cancelled run did not come to
     /// write it. Throws std::logic_error for an unknown name.

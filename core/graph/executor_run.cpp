@@ -51,9 +51,11 @@ void Executor::State::run(const RunOptions& run_options) {
     bool has_looped = false;
     for (const NodeId id : graph.order) {
         has_looped |= graph.nodes[id].loop != kNoId;
+        beginHistories(id);
         if ((interrupt.isCancelled() && !has_looped) || !runNode(id, 0))
             break;
     }
+    endFrame();
     finishDevice();
     // A hardware device ran on after its passes were recorded; it alone knows how long.
     if (device != nullptr && !devices.raster->info().is_software)
@@ -224,16 +226,10 @@ void Executor::State::beginLoop(const PlannedLoop& loop, LoopState& state) {
     for (const PlannedCarry& carry : loop.carries) {
         if (carry.is_culled)
             continue;
-        if (carry.initial != kNoId) {
+        if (carry.initial != kNoId)
             copyValue(values[carry.initial], carry.value);
-        } else {
-            // Lists begin empty; a record's size is known once `next` has it.
-            const Shape shape = graph.values[carry.value].type.shape;
-            place(carry.value, shape == Shape::kPlane    ? std::size_t{extent.x} * extent.y
-                               : shape == Shape::kRecord ? 1
-                                                         : 0);
-            fillZero(values[carry.value].buffer);
-        }
+        else
+            makeZero(carry.value);
         values[carry.value].version = ++last_version;
     }
 }
@@ -345,8 +341,12 @@ const char* Executor::State::ruleThatEnds(const PlannedLoop& loop, const LoopSta
     for (const StopRule& rule : loop.stop) {
         switch (rule.kind) {
         case StopRule::Kind::kEmpty:
-            if (values[rule.list].count == 0)
+            if (values[rule.value].count == 0)
                 return "empty";
+            break;
+        case StopRule::Kind::kBelow:
+            if (rule.limit > 0 && values[rule.value].as<float>().front() < rule.limit)
+                return "below";
             break;
         case StopRule::Kind::kRays:
             if (rule.limit > 0 && static_cast<double>(state.rays) >= rule.limit)

@@ -37,6 +37,13 @@ struct StagedValue {
     Buffer memory;
 };
 
+/// What a value of the last frame holds.
+struct HistoryState {
+    bool has_begun = false;
+    std::uint64_t extent_version = 0; ///< of the frame that it is from
+    std::uint64_t source_version = 0;
+};
+
 struct LoopState {
     Curve curve;
     std::uint64_t rays = 0;
@@ -85,10 +92,14 @@ struct Executor::State {
     [[nodiscard]] const char* limitThatEnds(bool is_outermost, uint iterations) const;
     [[nodiscard]] std::uint64_t raysSoFar() const;
 
+    void beginHistories(NodeId before);
+    void endFrame();
+
     void prepareOutput(NodeId id, std::size_t port);
     [[nodiscard]] std::size_t elementsOf(NodeId id, const OutPort& port) const;
     void place(ValueId id, std::size_t elements);
-    void fillZero(BufferView target);
+    void makeZero(ValueId id);
+    void fill(BufferView target, uint word);
     void copyContent(const Value& from, BufferView to);
     void copyValue(const Value& from, ValueId to);
     void stage(const Value& value, StagedValue& staged);
@@ -115,6 +126,7 @@ struct Executor::State {
     std::vector<Value> values;    ///< by ValueId
     std::vector<Buffer> memories; ///< by CompiledGraph::memories
     std::vector<LoopState> loops;
+    std::vector<HistoryState> histories; ///< by CompiledGraph::histories
     Counters counters;
     Tracers tracers;
     std::vector<NodeState> nodes; ///< by NodeId

@@ -49,14 +49,57 @@ void Executor::State::place(ValueId id, std::size_t elements) {
     value.extent = value.type->shape == Shape::kPlane ? extent : uvec2(0, 0);
 }
 
+/// Zeroes: lists begin empty; a record's size is known once something is copied to it.
+void Executor::State::makeZero(ValueId id) {
+    const Shape shape = graph.values[id].type.shape;
+    place(id, shape == Shape::kPlane    ? std::size_t{extent.x} * extent.y
+              : shape == Shape::kRecord ? 1
+                                        : 0);
+    fill(values[id].buffer, 0);
+}
+
+/// Gives values of the last frame that have none yet what they begin with.
+void Executor::State::beginHistories(NodeId before) {
+    for (std::size_t i = 0; i < histories.size(); ++i) {
+        const PlannedHistory& planned = graph.histories[i];
+        HistoryState& history = histories[i];
+        if (planned.begins_at != before ||
+            (history.has_begun && history.extent_version == extent_version))
+            continue;
+        if (planned.initial != kNoId)
+            copyValue(values[planned.initial], planned.value);
+        else
+            makeZero(planned.value);
+        values[planned.value].version = ++last_version;
+        history = {.has_begun = true, .extent_version = extent_version, .source_version = 0};
+    }
+}
+
+/// Hands what this frame made to the next. A cancelled run may not have come to make it.
+void Executor::State::endFrame() {
+    for (std::size_t i = 0; i < histories.size(); ++i) {
+        const PlannedHistory& planned = graph.histories[i];
+        const Value& source = values[planned.source];
+        HistoryState& history = histories[i];
+        if (planned.begins_at == kNoId || !history.has_begun || source.version == 0 ||
+            source.version == history.source_version)
+            continue;
+        copyValue(source, planned.value);
+        values[planned.value].version = ++last_version;
+        history.source_version = source.version;
+    }
+}
+
 void Executor::State::prepareOutput(NodeId id, std::size_t port) {
     const PlannedOutput& planned = graph.nodes[id].outputs[port];
     Value& value = values[planned.value];
     if (planned.in_place == InPlace::kNo) {
         place(planned.value, elementsOf(id, graph.nodes[id].type->outputs[port]));
+        if (options->poison_outputs)
+            fill(value.buffer, 0xffffffffu);
         // In place of an input that nothing feeds: it updates zeroes.
         if (!graph.nodes[id].type->outputs[port].in_place_of.empty())
-            fillZero(value.buffer);
+            fill(value.buffer, 0);
         return;
     }
     const Value& input = values[planned.in_place_of];
@@ -69,10 +112,10 @@ void Executor::State::prepareOutput(NodeId id, std::size_t port) {
     value.extent = input.extent;
 }
 
-void Executor::State::fillZero(BufferView target) {
+void Executor::State::fill(BufferView target, uint word) {
     if (kernels == host)
         finishDevice();
-    kernels->fill(target, 0);
+    kernels->fill(target, word);
     is_device_pending |= kernels == device;
 }
 

@@ -135,9 +135,9 @@ public:
     bool key(std::string& name) override {
         Level& level = levels_.back();
         const TextSpan span = walk_.next();
-        const Place place{span, pointerTo(pointer(levels_.size() - 1), name), true};
+        const Place place{span, pointerTo(pointer(levels_.size() - 1), name), source_};
         if (name.size() > kMaxName) {
-            reporter_->error("E0105", {span, pointer(levels_.size() - 1), true},
+            reporter_->error("E0105", {span, pointer(levels_.size() - 1), source_},
                              "this name has " + std::to_string(name.size()) +
                                  " bytes; a name may have 256");
             return false;
@@ -146,7 +146,7 @@ public:
         if (!is_new) {
             reporter_->error("E0102", place, "the key \"" + name + "\" is written twice",
                              "remove or rename one of them");
-            reporter_->note({first->second, place.pointer, true}, "the first is here");
+            reporter_->note({first->second, place.pointer, source_}, "the first is here");
         }
         level.key = {std::move(name), span, {}};
         return true;
@@ -167,8 +167,8 @@ public:
                std::string_view(" \t\r\n").find(before.back()) != std::string_view::npos)
             before.remove_suffix(1);
         const SyntaxError error = explain(what, before);
-        reporter_->error("E0101", {{static_cast<std::uint32_t>(place), 1}, "", true}, error.message,
-                         error.hint);
+        reporter_->error("E0101", {{static_cast<std::uint32_t>(place), 1}, "", source_},
+                         error.message, error.hint);
         return false;
     }
 
@@ -194,7 +194,7 @@ private:
         level.value.span = walk_.next();
         if (levels_.size() <= kMaxDepth)
             return true;
-        reporter_->error("E0103", {level.value.span, "", true},
+        reporter_->error("E0103", {level.value.span, "", source_},
                          "this is nested more than 64 levels deep");
         return false;
     }
@@ -208,7 +208,7 @@ private:
 
     bool attach(JsonValue value) {
         if (++values_ > kMaxValues) {
-            reporter_->error("E0104", {value.span, "", true},
+            reporter_->error("E0104", {value.span, "", source_},
                              "the file holds more than 262144 values");
             return false;
         }

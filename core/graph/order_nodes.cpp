@@ -17,7 +17,8 @@ struct Dependency {
 
 class ScopeOrder {
 public:
-    ScopeOrder(Compilation& c, NodeId scope) : c_(&c), scope_(scope) {
+    ScopeOrder(Compilation& c, NodeId scope, std::uint64_t seed)
+        : c_(&c), scope_(scope), seed_(seed) {
         for (NodeId id = 0; id < c.graph.nodes.size(); ++id)
             if (c.graph.nodes[id].parent == scope)
                 members_.push_back(id);
@@ -28,8 +29,12 @@ public:
         std::vector<std::vector<NodeId>> after(c_->graph.nodes.size());
         std::vector<std::size_t> waiting(c_->graph.nodes.size());
         std::vector<bool> is_done(c_->graph.nodes.size());
-        // Of all that could run next, the first in the file does: the order is stable.
-        std::priority_queue<NodeId, std::vector<NodeId>, std::greater<>> ready;
+        // Of all that could run next, the first in the file does: the order is stable. A seed
+        // shuffles the file.
+        const auto later = [&](NodeId a, NodeId b) {
+            return std::pair(shuffled(a), a) > std::pair(shuffled(b), b);
+        };
+        std::priority_queue<NodeId, std::vector<NodeId>, decltype(later)> ready(later);
         for (const NodeId id : members_) {
             waiting[id] = dependencies[id].size();
             for (const Dependency& dependency : dependencies[id])
@@ -66,6 +71,16 @@ public:
     }
 
 private:
+    /// splitmix64 (Steele, Lea, Flood 2014).
+    [[nodiscard]] std::uint64_t shuffled(NodeId id) const {
+        if (seed_ == 0)
+            return 0;
+        std::uint64_t z = seed_ + (id + 1) * 0x9e3779b97f4a7c15u;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+        return z ^ (z >> 31);
+    }
+
     std::vector<NodeId> reportCycle(NodeId start,
                                     const std::vector<std::vector<Dependency>>& dependencies,
                                     const std::vector<bool>& is_done) {
@@ -104,6 +119,7 @@ private:
     static constexpr std::size_t npos = static_cast<std::size_t>(-1);
     Compilation* c_;
     NodeId scope_;
+    std::uint64_t seed_;
     std::vector<NodeId> members_;
 };
 
@@ -112,6 +128,10 @@ void addDependency(Compilation& c, std::vector<std::vector<Dependency>>& depende
                    NodeId reader, NodeId reader_scope, ValueId id, const Place& place) {
     if (id == kNoId)
         return;
+    // The last frame's value is there before all, but what it begins with is not.
+    for (const PlannedHistory& history : c.graph.histories)
+        if (history.value == id)
+            return addDependency(c, dependencies, reader, reader_scope, history.initial, place);
     const PlannedValue& value = c.graph.values[id];
     if (value.writer == kNoId || c.isInside(reader_scope, value.writer))
         return; // a graph input, or a loop's carried value read inside it
@@ -133,13 +153,13 @@ void addDependency(Compilation& c, std::vector<std::vector<Dependency>>& depende
 
 } // namespace
 
-void orderNodes(Compilation& c) {
+void orderNodes(Compilation& c, std::uint64_t schedule_seed) {
     std::vector<std::vector<Dependency>> dependencies(c.graph.nodes.size());
     for (NodeId id = 0; id < c.graph.nodes.size(); ++id) {
         const PlannedNode& node = c.graph.nodes[id];
         for (std::size_t i = 0; i < node.inputs.size(); ++i)
             addDependency(c, dependencies, id, node.parent, node.inputs[i].value,
-                          c.edge_places[id][i]);
+                          c.written[id].edges[i]->from.place);
         if (node.loop == kNoId)
             continue;
         const PlannedLoop& loop = c.graph.loops[node.loop];
@@ -149,19 +169,24 @@ void orderNodes(Compilation& c) {
         };
         for (std::size_t i = 0; i < loop.carries.size(); ++i) {
             addDependency(c, dependencies, id, node.parent, loop.carries[i].initial,
-                          c.written[id]->loop->carry[i].initial.from.place);
+                          c.written[id].desc->loop->carry[i].initial.from.place);
             if (!isOwn(loop.carries[i].next))
                 addDependency(c, dependencies, id, node.parent, loop.carries[i].next,
-                              c.written[id]->loop->carry[i].name.place);
+                              c.written[id].desc->loop->carry[i].name.place);
         }
         for (const StopRule& rule : loop.stop)
-            if (!isOwn(rule.list))
-                addDependency(c, dependencies, id, node.parent, rule.list,
-                              c.written[id]->loop->place);
+            if (!isOwn(rule.value))
+                addDependency(c, dependencies, id, node.parent, rule.value,
+                              c.written[id].desc->loop->place);
     }
-    c.graph.order = ScopeOrder(c, kNoId).sort(dependencies);
+    // What stands in for a pass that is switched off must be there when the pass would be.
+    for (const Bypass& bypass : c.bypasses)
+        if (const NodeId writer = c.graph.values[bypass.value].writer; writer != kNoId)
+            addDependency(c, dependencies, writer, c.graph.nodes[writer].parent, bypass.instead,
+                          bypass.place);
+    c.graph.order = ScopeOrder(c, kNoId, schedule_seed).sort(dependencies);
     for (PlannedLoop& loop : c.graph.loops)
-        loop.body = ScopeOrder(c, loop.node).sort(dependencies);
+        loop.body = ScopeOrder(c, loop.node, schedule_seed).sort(dependencies);
 }
 
 } // namespace hone

@@ -152,6 +152,17 @@ std::string describe(const CompiledGraph& graph, NodeId node, const std::string&
 std::optional<ParamProblem> feed(CompiledGraph& graph, const Catalog& catalog,
                                  const PlannedParam& param, std::vector<NodeId>& changed) {
     for (const ParamUse& use : param.uses) {
+        if (use.graph_param != kNoId) {
+            PlannedParam& fed = graph.params[use.graph_param];
+            auto value =
+                convertParam(param, fed.decl, catalog, "graph parameter \"" + fed.decl.name + "\"");
+            if (ParamProblem* problem = std::get_if<ParamProblem>(&value))
+                return *problem;
+            fed.value = std::get<ParamValue>(value);
+            if (auto problem = feed(graph, catalog, fed, changed))
+                return problem;
+            continue;
+        }
         PlannedNode& node = graph.nodes[use.node];
         changed.push_back(use.node);
         if (use.stop_rule != kNoId) {
@@ -177,6 +188,13 @@ std::optional<ParamProblem> feed(CompiledGraph& graph, const Catalog& catalog,
     return std::nullopt;
 }
 
+/// Do passes come and go with the parameter, or with one that it feeds?
+bool isSwitch(const CompiledGraph& graph, const PlannedParam& param) {
+    return param.is_switch || std::ranges::any_of(param.uses, [&](const ParamUse& use) {
+               return use.graph_param != kNoId && isSwitch(graph, graph.params[use.graph_param]);
+           });
+}
+
 std::optional<ParamProblem> assignGraphParam(CompiledGraph& graph, const Catalog& catalog,
                                              PlannedParam& param, const std::string& text,
                                              std::vector<NodeId>& changed) {
@@ -184,8 +202,17 @@ std::optional<ParamProblem> assignGraphParam(CompiledGraph& graph, const Catalog
                            "graph parameter \"" + param.decl.name + "\"");
     if (ParamProblem* problem = std::get_if<ParamProblem>(&value))
         return *problem;
+    // From now on the parameter of the graph around that fed it has no say.
+    const auto id = static_cast<std::uint32_t>(&param - graph.params.data());
+    for (PlannedParam& outer : graph.params)
+        std::erase_if(outer.uses, [&](const ParamUse& use) { return use.graph_param == id; });
     if (param.value == std::get<ParamValue>(value))
         return std::nullopt;
+    if (isSwitch(graph, param))
+        return ParamProblem{"E0511",
+                            "graph parameter \"" + param.decl.name +
+                                "\" switches passes on and off, which a compiled graph cannot do",
+                            "compile the graph anew with this value"};
     const ParamValue before = std::exchange(param.value, std::get<ParamValue>(value));
     std::optional<ParamProblem> problem = feed(graph, catalog, param, changed);
     if (problem) {
@@ -242,7 +269,8 @@ std::optional<ParamProblem> assignParam(CompiledGraph& graph, const Catalog& cat
 
 bool isBounded(const PlannedLoop& loop) {
     return std::ranges::any_of(loop.stop, [](const StopRule& rule) {
-        return rule.kind != StopRule::Kind::kEmpty && rule.limit > 0;
+        return rule.kind != StopRule::Kind::kEmpty && rule.kind != StopRule::Kind::kBelow &&
+               rule.limit > 0;
     });
 }
 

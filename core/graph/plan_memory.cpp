@@ -78,10 +78,15 @@ private:
                     addRead(carry.next, kNoId, id, loop.last_step);
                 }
             for (const StopRule& rule : loop.stop)
-                addRead(rule.list, kNoId, id, loop.last_step);
+                addRead(rule.value, kNoId, id, loop.last_step);
         }
         for (const NamedValue& output : graph_->outputs)
             addRead(output.value, kNoId, kNoId, kForever);
+        for (const PlannedHistory& history : graph_->histories)
+            if (history.begins_at != kNoId) {
+                addRead(history.initial, kNoId, kNoId, node(history.begins_at).step);
+                addRead(history.source, kNoId, kNoId, kForever);
+            }
     }
 
     /// A read inside a loop that runs within the value's scope lasts as long as that loop.

@@ -31,22 +31,24 @@ void Reporter::add(Severity severity, const char* code, const Place& place, std:
     Diagnostic diagnostic;
     diagnostic.code = code;
     diagnostic.severity = severity;
-    diagnostic.file = source_->file();
+    const SourceText& source = place.source != nullptr ? *place.source : *source_;
+    diagnostic.file = source.file();
     diagnostic.pointer = place.pointer;
     diagnostic.message = std::move(message);
     diagnostic.hint = std::move(hint);
-    if (place.in_file) {
-        const SourceText::Position position = source_->locate(place.span.begin);
+    if (place.source != nullptr) {
+        const SourceText::Position position = source.locate(place.span.begin);
         diagnostic.line = position.line;
         diagnostic.column = position.column;
         diagnostic.length = std::max<std::size_t>(1, place.span.length);
-        Excerpt excerpt = excerptAround(source_->line(position.line), position.column);
+        Excerpt excerpt = excerptAround(source.line(position.line), position.column);
         diagnostic.source = std::move(excerpt.text);
         diagnostic.source_column = excerpt.column;
     }
     const bool is_known = std::ranges::any_of(*diagnostics_, [&](const Diagnostic& other) {
-        return other.code == diagnostic.code && other.line == diagnostic.line &&
-               other.column == diagnostic.column && other.message == diagnostic.message;
+        return other.code == diagnostic.code && other.file == diagnostic.file &&
+               other.line == diagnostic.line && other.column == diagnostic.column &&
+               other.message == diagnostic.message;
     });
     last_dropped_ = is_known || reported_ >= kMaxReported;
     if (!last_dropped_) {
@@ -68,20 +70,13 @@ void Reporter::note(const Place& place, std::string message) {
     if (last_dropped_ || diagnostics_->empty())
         return;
     Note note{.message = std::move(message)};
-    if (place.in_file) {
-        const SourceText::Position position = source_->locate(place.span.begin);
+    if (place.source != nullptr) {
+        const SourceText::Position position = place.source->locate(place.span.begin);
+        note.file = place.source->file();
         note.line = position.line;
         note.column = position.column;
     }
     diagnostics_->back().notes.push_back(std::move(note));
-}
-
-std::string Reporter::where(const Place& place) const {
-    if (!place.in_file)
-        return source_->file();
-    const SourceText::Position position = source_->locate(place.span.begin);
-    return source_->file() + ":" + std::to_string(position.line) + ":" +
-           std::to_string(position.column);
 }
 
 std::string quotedList(const std::vector<std::string>& words) {

@@ -24,8 +24,6 @@ public:
 
     /// Was an error reported by this reporter?
     [[nodiscard]] bool failed() const { return failed_; }
-    /// file:line:column of a place, for messages that speak of another one.
-    [[nodiscard]] std::string where(const Place& place) const;
 
 private:
     void add(Severity severity, const char* code, const Place& place, std::string message,

@@ -14,11 +14,13 @@ struct TextSpan {
     std::uint32_t length = 0;
 };
 
+class SourceText;
+
 /// Where something in a graph file was written.
 struct Place {
     TextSpan span;
-    std::string pointer;  ///< JSON pointer
-    bool in_file = false; ///< false: it was never written (an override, a missing key)
+    std::string pointer;                ///< JSON pointer; "" in a shader
+    const SourceText* source = nullptr; ///< null: it was never written (an override)
 };
 
 /// A file's text with its name, which knows where its lines begin.
@@ -35,6 +37,9 @@ public:
     [[nodiscard]] Position locate(std::uint32_t offset) const;
     /// A line without its end, from 1.
     [[nodiscard]] std::string_view line(std::size_t number) const;
+    [[nodiscard]] std::size_t lineCount() const { return line_begins_.size(); }
+    /// Offset of a line's first byte; lines count from 1.
+    [[nodiscard]] std::uint32_t begin(std::size_t number) const { return line_begins_[number - 1]; }
     [[nodiscard]] const std::string& file() const { return file_; }
     [[nodiscard]] const std::string& text() const { return text_; }
 

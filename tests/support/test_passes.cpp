@@ -148,6 +148,31 @@ ParamDecl weight() {
     return decl;
 }
 
+class Brightest final : public RenderPass {
+    void execute(PassContext& context) override {
+        float greatest = 0;
+        for (const vec3& color : context.in("color").as<vec3>())
+            greatest = std::max(greatest, color.x);
+        context.out("value").as<float>().front() = greatest;
+    }
+};
+
+/// A compiler of one language: "bad" in line N is wrong, anything else is the pass "add".
+ShaderPass compileShader(const PassRegistry& passes, const std::string& text) {
+    if (const std::size_t bad = text.find("bad"); bad != std::string::npos) {
+        const auto begin = text.begin();
+        const auto at = begin + static_cast<std::ptrdiff_t>(bad);
+        const std::size_t line = 1 + static_cast<std::size_t>(std::count(begin, at, '\n'));
+        return {.type = {},
+                .problems = {{.line = line,
+                              .column = 3,
+                              .length = 3,
+                              .message = "this is bad",
+                              .hint = "write something good"}}};
+    }
+    return {.type = *passes.find("add"), .problems = {}};
+}
+
 } // namespace
 
 TestCatalog::TestCatalog() {
@@ -203,15 +228,24 @@ TestCatalog::TestCatalog() {
                    .in("color", types::kRadiance, "colour")
                    .outInPlace("result", types::kRadiance, "color", "color + 1")
                    .kernel(kBump, "result"));
-    passes.add(PassType("mix", "Adds two colours")
-                   .in("a", types::kRadiance, "colour")
-                   .in("b", types::kRadiance, "colour")
-                   .out("color", types::kRadiance, "a + b")
-                   .kernel(kMix, "color"));
+    PassType mix = PassType("mix", "Adds two colours")
+                       .in("a", types::kRadiance, "colour")
+                       .in("b", types::kRadiance, "colour")
+                       .out("color", types::kRadiance, "a + b")
+                       .kernel(kMix, "color");
+    mix.plugin = "mixer";
+    passes.add(std::move(mix));
+    passes.add(PassType("brightest", "Finds the greatest x")
+                   .in("color", types::kRadiance, "colour")
+                   .out("value", types::kScalar, "its greatest x", one)
+                   .implementedBy<Brightest>(Domain::kHost));
     passes.add(PassType("draw", "Rasterises")
                    .in("camera", types::kCamera, "from where")
                    .out("depth", types::kDepth, "depth")
                    .implementedBy<Draw>(Domain::kDevice));
+    shaders = [this](const std::string&, const std::string& text) {
+        return compileShader(passes, text);
+    };
     backends.add("embree", "never made", nullptr);
     backends.add("brute", "never made", nullptr);
 }

@@ -19,12 +19,16 @@ namespace hone {
 ///     add      color -> color + amount                                           kernel
 ///     bump     color -> color in place, + 1                                      kernel
 ///     mix      a, b -> color (a + b)                                             kernel
+///     brightest  color -> value (the greatest x)
 ///     draw     camera -> depth; rasterises, so it needs a device
 struct TestCatalog {
     TestCatalog();
     PassRegistry passes;
     TraceBackendRegistry backends; ///< "brute" and "embree", neither of which is ever made
-    [[nodiscard]] Catalog catalog() const { return {&passes, &backends}; }
+    ShaderCompiler shaders;        ///< a file with "bad" in it is wrong; others are the pass add
+    TestCatalog(const TestCatalog&) = delete;
+    TestCatalog& operator=(const TestCatalog&) = delete;
+    [[nodiscard]] Catalog catalog() const { return {&passes, &backends, &shaders}; }
 };
 
 } // namespace hone

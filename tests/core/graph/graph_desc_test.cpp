@@ -11,7 +11,7 @@ namespace {
 class GraphDescTest : public GraphTest {};
 
 SourceText::Position positionOf(const GraphDesc& desc, const Place& place) {
-    return desc.source.locate(place.span.begin);
+    return desc.source->locate(place.span.begin);
 }
 
 TEST_F(GraphDescTest, KnowsWhereEveryWordIsWritten) {
@@ -80,7 +80,7 @@ void expectGoodReports(const std::string& text, const Catalog& catalog) {
     for (const Diagnostic& diagnostic : diagnostics) {
         EXPECT_EQ(diagnostic.code.size(), 5u);
         if (diagnostic.line != 0) {
-            EXPECT_LE(diagnostic.column, desc.source.line(diagnostic.line).size() + 1) << text;
+            EXPECT_LE(diagnostic.column, desc.source->line(diagnostic.line).size() + 1) << text;
         }
         EXPECT_FALSE(format(diagnostic).empty());
     }
