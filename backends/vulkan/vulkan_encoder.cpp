@@ -81,10 +81,21 @@ VkCommandBuffer VulkanEncoder::recorded() const {
 }
 
 VkCommandBuffer VulkanEncoder::next() {
+    return record(hazards_.mustWaitForAll());
+}
+
+VkCommandBuffer VulkanEncoder::next(std::span<const BufferUse> uses) {
+    return record(hazards_.mustWait(uses));
+}
+
+VkCommandBuffer VulkanEncoder::record(bool waits) {
     HONE_ASSERT(!in_raster_, "only drawIndexed() may stand between beginRaster() and endRaster()");
     if (is_recording_) {
-        memoryBarrier(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                      VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
+        if (waits) {
+            memoryBarrier(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                          VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
+            ++barriers_;
+        }
         return commands_;
     }
     const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
@@ -127,7 +138,13 @@ void VulkanEncoder::dispatch(const Kernel& kernel, const Arguments& arguments,
     const uint groups = (count - 1) / pipeline.workgroup + 1;
     const uint rows = (groups - 1) / widest + 1;
     const uint row_groups = (groups - 1) / rows + 1;
-    const VkCommandBuffer commands = next();
+    std::array<BufferUse, kMaxDescriptors> uses;
+    std::size_t used = 0;
+    for (const ShaderBinding& binding : interface.bindings)
+        for (std::uint32_t element = 0; element < binding.elements; ++element)
+            if (const Argument* argument = arguments.find(binding.name, element))
+                uses[used++] = {argument->buffer, binding.is_written};
+    const VkCommandBuffer commands = next(std::span(uses).first(used));
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.handle());
     bindArguments(interface, VK_PIPELINE_BIND_POINT_COMPUTE, arguments);
     pushParams(interface, count, row_groups * pipeline.workgroup, params);
@@ -185,7 +202,8 @@ void VulkanEncoder::copy(BufferView source, BufferView target) {
     const VkBuffer from = buffer(source, "the source of a copy");
     const VkBuffer to = buffer(target, "the target of a copy");
     const VkBufferCopy region{source.offset, target.offset, source.bytes};
-    vkCmdCopyBuffer(next(), from, to, 1, &region);
+    const BufferUse uses[] = {{source, false}, {target, true}};
+    vkCmdCopyBuffer(next(uses), from, to, 1, &region);
 }
 
 void VulkanEncoder::fill(BufferView target, uint word) {
@@ -193,7 +211,8 @@ void VulkanEncoder::fill(BufferView target, uint word) {
     if (target.bytes == 0)
         return;
     const VkBuffer to = buffer(target, "the target of a fill");
-    vkCmdFillBuffer(next(), to, target.offset, target.bytes, word);
+    const BufferUse uses[] = {{target, true}};
+    vkCmdFillBuffer(next(uses), to, target.offset, target.bytes, word);
 }
 
 void VulkanEncoder::beginRaster(const RasterTarget& target) {
@@ -352,6 +371,7 @@ void VulkanEncoder::submitAndWait() {
 
 void VulkanEncoder::reset() {
     is_recording_ = false;
+    hazards_.clear();
     in_raster_ = false;
     scopes_.discard();
     resources_->releaseRetired();

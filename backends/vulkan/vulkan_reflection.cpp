@@ -5,7 +5,9 @@
 
 #include <spirv_cross/spirv_cross_c.h>
 
+#include <algorithm>
 #include <memory>
+#include <span>
 #include <string_view>
 
 namespace hone {
@@ -48,6 +50,7 @@ public:
         spvc_type type = spvc_compiler_get_type_handle(compiler_, resource.type_id);
         if (spvc_type_get_num_array_dimensions(type) > 0)
             result.elements = spvc_type_get_array_dimension(type, 0);
+        result.is_written = !isReadOnly(resource);
         result.binding_word = decoration(resource, SpvDecorationBinding, result.name);
         result.set_word = decoration(resource, SpvDecorationDescriptorSet, result.name);
         return result;
@@ -74,6 +77,15 @@ private:
         if (result != SPVC_SUCCESS)
             throw DeviceError(shader_ + ": the SPIR-V cannot be read: " +
                               spvc_context_get_last_error_string(context_.get()));
+    }
+
+    bool isReadOnly(const spvc_reflected_resource& resource) const {
+        const SpvDecoration* decorations = nullptr;
+        std::size_t count = 0;
+        check(spvc_compiler_get_buffer_block_decorations(compiler_, resource.id, &decorations,
+                                                         &count));
+        const std::span<const SpvDecoration> all{decorations, count};
+        return std::ranges::find(all, SpvDecorationNonWritable) != all.end();
     }
 
     std::size_t decoration(const spvc_reflected_resource& resource, SpvDecoration which,

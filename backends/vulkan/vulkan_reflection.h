@@ -14,6 +14,7 @@ namespace hone {
 struct ShaderBinding {
     std::string name;             ///< the port: the block's type name less "_buffer"
     std::uint32_t elements = 1;   ///< descriptors: more than 1 for an array of buffers
+    bool is_written = true;       ///< not declared `readonly`
     std::size_t binding_word = 0; ///< where the SPIR-V says the binding's number
     std::size_t set_word = 0;     ///< where it says the descriptor set's
 };

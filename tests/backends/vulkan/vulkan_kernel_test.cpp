@@ -2,6 +2,7 @@
 #include "hone/tests/support/vulkan_fixture.h"
 
 #include "hone/backends/host/host_device.h"
+#include "hone/backends/vulkan/vulkan_encoder.h"
 #include "hone/core/error.h"
 
 #include "hone_spirv/affine.h"
@@ -171,6 +172,37 @@ TEST_F(VulkanKernels, AreTimedByScope) {
     EXPECT_GT(timings[1].ms, 0);
     EXPECT_GE(timings[0].ms, timings[1].ms);
     EXPECT_TRUE(device().takeTimings().empty()) << "taken once";
+}
+
+TEST_F(VulkanKernels, WaitOnlyForWhatTheyMeet) {
+    const auto& vulkan = dynamic_cast<const VulkanEncoder&>(encoder());
+    constexpr uint kCount = 1000;
+    std::vector<Buffer> buffers;
+    for (int i = 0; i < 4; ++i)
+        buffers.push_back(device().createBuffer(kCount * sizeof(uint), "sums"));
+    std::ranges::fill(buffers[3].as<uint>(), 5u);
+    const auto add = [&](std::size_t from, std::size_t to) {
+        Arguments arguments;
+        arguments.bind("summands", buffers[from].view());
+        arguments.bind("sum", buffers[to].view());
+        encoder().dispatch(kAffine, arguments,
+                           bytesOf(Affine::Params{.used = 1, .scale = {}, .offset = 0}), kCount);
+    };
+    encoder().finish();
+    const std::uint64_t before = vulkan.barriers();
+    add(3, 0);
+    add(3, 1);
+    add(3, 2);
+    EXPECT_EQ(vulkan.barriers() - before, 0u) << "all read one and write another";
+    add(0, 1);
+    EXPECT_EQ(vulkan.barriers() - before, 1u);
+    add(0, 2);
+    EXPECT_EQ(vulkan.barriers() - before, 1u) << "the last barrier was for this, too";
+    add(1, 2);
+    EXPECT_EQ(vulkan.barriers() - before, 2u);
+    encoder().finish();
+    EXPECT_EQ(buffers[1].as<uint>()[kCount - 1], 5u + 5u);
+    EXPECT_EQ(buffers[2].as<uint>()[kCount - 1], 5u + 5u + 10u);
 }
 
 } // namespace
