@@ -39,6 +39,7 @@ std::string rangeOf(const ParamDecl& decl, const Session& session) {
 
 Json describe(const PassType& type, const Session& session) {
     Json inputs = Json::array(), outputs = Json::array(), params = Json::array();
+    Json promises = Json::array();
     for (const InPort& port : type.inputs)
         inputs.push_back({{"name", port.name},
                           {"type", port.type.name},
@@ -56,11 +57,10 @@ Json describe(const PassType& type, const Session& session) {
                           {"range", rangeOf(decl, session)},
                           {"default", toString(decl.fallback)},
                           {"doc", decl.doc}});
-    return {{"name", type.name},
-            {"doc", type.doc},
-            {"inputs", inputs},
-            {"outputs", outputs},
-            {"params", params}};
+    for (Promise promise : type.promised)
+        promises.push_back(describe(promise));
+    return {{"name", type.name},  {"doc", type.doc},  {"inputs", inputs},
+            {"outputs", outputs}, {"params", params}, {"promises", promises}};
 }
 
 void printManual(const PassType& type, const Session& session, std::ostream& out) {
@@ -86,6 +86,10 @@ void printManual(const PassType& type, const Session& session, std::ostream& out
         out << "\n  params\n";
     for (const ParamDecl& decl : type.params)
         line(decl.name, rangeOf(decl, session), decl.doc + " [" + toString(decl.fallback) + "]");
+    if (!type.promised.empty())
+        out << "\n  promises\n";
+    for (Promise promise : type.promised)
+        out << "    " << describe(promise) << "\n";
 }
 
 } // namespace

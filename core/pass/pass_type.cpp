@@ -39,6 +39,12 @@ private:
 
 } // namespace
 
+std::string_view describe(Promise promise) {
+    return promise == Promise::kPixelwise
+               ? "a pixel of the outputs depends on the same pixel of the inputs alone"
+               : "a greater error in gives no smaller error out";
+}
+
 PassType& PassType::in(std::string port, const PortType& type, std::string port_doc) {
     inputs.push_back(
         {.name = std::move(port), .type = type, .doc = std::move(port_doc), .edge_params = {}});
@@ -123,6 +129,11 @@ PassType& PassType::unit(std::string of_last_param) {
 
 PassType& PassType::into(std::size_t kernel_offset) {
     params.back().kernel_offset = kernel_offset;
+    return *this;
+}
+
+PassType& PassType::promises(Promise promise) {
+    promised.push_back(promise);
     return *this;
 }
 

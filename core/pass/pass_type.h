@@ -48,6 +48,16 @@ struct OutPort {
 /// Where a pass may run. kEither: its kernel has both builds and the executor picks.
 enum class Domain : std::uint8_t { kHost, kDevice, kEither };
 
+/// What a pass says of itself beyond its ports' types; tests generated from its declaration hold it
+/// to its word.
+enum class Promise : std::uint8_t {
+    kPixelwise, ///< a pixel of the outputs depends on the same pixel of the inputs alone
+    kMonotone,  ///< a greater error in gives no smaller error out
+};
+
+/// The promise as a sentence, for manuals.
+[[nodiscard]] std::string_view describe(Promise promise);
+
 /// A kind of pass: its ports and parameters, declared once. Manual, schema, validation, bindings
 /// and generated tests come from here. Built with the chained calls below, by the function in the
 /// pass's .cpp that its room's list names.
@@ -80,6 +90,7 @@ public:
     /// The parameter declared last is also the kernel's: it is written to Params at this offset
     /// (offsetof).
     PassType& into(std::size_t kernel_offset);
+    PassType& promises(Promise promise);
 
     /// A pass that is one kernel: it runs once an element of `over` (an output or input port; a
     /// plane's pixels or a list's valid elements). No class to write; every port is bound by its
@@ -102,6 +113,7 @@ public:
     std::vector<InPort> inputs;
     std::vector<OutPort> outputs;
     std::vector<ParamDecl> params;
+    std::vector<Promise> promised;
     Domain domain = Domain::kHost;
     std::function<std::unique_ptr<RenderPass>()> create;
 };

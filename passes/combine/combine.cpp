@@ -78,6 +78,8 @@ PassType combinePass() {
         .param("mode", {"mean", "linear", "max", "noisy_or", "sum"},
                "mean: their mean; linear: their weighted sum; max: the greatest weighted one; "
                "noisy_or: the chance that any is wrong; sum: their sum without weights")
+        .promises(Promise::kPixelwise)
+        .promises(Promise::kMonotone)
         .implementedBy<CombinePass>(Domain::kEither);
 }
 

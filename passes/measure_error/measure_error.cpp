@@ -63,6 +63,7 @@ PassType measureErrorPass() {
         .into(offsetof(MeasureError::Params, curve))
         .param("scale", 1.0f, {.min = 0, .max = {}}, "multiplies the error before it is coloured")
         .into(offsetof(MeasureError::Params, scale))
+        .promises(Promise::kPixelwise)
         .kernel(kMeasureError, "error");
 }
 

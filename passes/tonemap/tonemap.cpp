@@ -41,6 +41,7 @@ PassType tonemapPass() {
         .param("curve", {"clip", "reinhard"},
                "clip: cut at 1; reinhard: compress highlights, white at 4")
         .into(offsetof(Tonemap::Params, curve))
+        .promises(Promise::kPixelwise)
         .kernel(kTonemap, "display");
 }
 

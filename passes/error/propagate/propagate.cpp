@@ -105,6 +105,7 @@ PassType propagateErrorPass() {
                "through the blur, or pixel by pixel as in the paper")
         .param("taps", kBlurTaps, {.min = 0, .max = 1u << 20}, "that of depth_of_field")
         .param("radius_limit", kBlurRadiusLimit, {.min = 0.5, .max = 512}, "that of depth_of_field")
+        .promises(Promise::kMonotone)
         .implementedBy<PropagateError>(Domain::kEither);
 }
 

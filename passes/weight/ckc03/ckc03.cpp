@@ -105,6 +105,7 @@ PassType ckc03WeightPass() {
                "pixels of a degree of visual angle")
         .param("noticeable", 0.01f, {.min = 1e-6, .max = {}},
                "error that is just noticed where no tolerance is connected")
+        .promises(Promise::kMonotone)
         .implementedBy<Ckc03>(Domain::kHost);
 }
 

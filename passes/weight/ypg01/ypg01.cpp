@@ -205,6 +205,7 @@ PassType ypg01WeightPass() {
         .param("white", 100.0f, {.min = 1, .max = 100000}, "luminance of display white, cd/m^2")
         .param("velocity", 0.0f, {.min = 0, .max = 1000},
                "how fast the image moves, degrees of visual angle a second")
+        .promises(Promise::kMonotone)
         .implementedBy<Ypg01>(Domain::kHost);
 }
 
