@@ -3,10 +3,25 @@
 
 #include "hone/backends/host/host_device.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstring>
 
 namespace hone {
+namespace {
+
+/// What stands behind the end of every buffer and must stay there.
+constexpr std::size_t kGuardBytes = 64;
+constexpr std::byte kGuard{0xa5};
+/// What memory holds that another value left: as a float -1.6e-13, as a uint far out of range.
+constexpr std::byte kOld{0xae};
+
+std::span<std::byte> bytesOf(BufferView view) {
+    return {view.data, view.bytes};
+}
+
+} // namespace
 
 PassRun::PassRun(PassType type)
     : type_(std::move(type)), host_(makeHostDevice()), device_(host_.get()), pass_(type_.create()),
@@ -14,10 +29,11 @@ PassRun::PassRun(PassType type)
     context_.chosen = &host_->encoder();
 }
 
-PassRun::PassRun(PassType type, Device& device) : PassRun(std::move(type)) {
+PassRun::PassRun(PassType type, Device& device, bool kernels_on_host) : PassRun(std::move(type)) {
     device_ = &device;
     context_.device = &device.encoder();
-    context_.chosen = context_.device;
+    if (!kernels_on_host)
+        context_.chosen = context_.device;
 }
 
 PassRun& PassRun::kernelsOnHost() {
@@ -86,8 +102,14 @@ PassRun& PassRun::input(std::string_view port, const Value& value) {
     return *this;
 }
 
+PassRun& PassRun::dirtyOutputs() {
+    has_dirty_outputs_ = true;
+    return *this;
+}
+
 PassRun& PassRun::execute() {
     prepareOutputs();
+    rememberInputs();
 
     // Ports that nothing feeds are bound, too, to nothing.
     std::vector<BoundPort> inputs;
@@ -117,6 +139,7 @@ PassRun& PassRun::execute() {
     context_.chosen->finish();
     if (context_.device != nullptr)
         context_.device->finish();
+    checkMemory();
     return *this;
 }
 
@@ -139,20 +162,54 @@ PassRun::Slot& PassRun::inputSlot(std::string_view port) {
     return slot;
 }
 
-void PassRun::feed(std::string_view port, std::span<const std::byte> bytes, std::size_t stride,
-                   std::size_t capacity, std::vector<ParamValue> edge_params) {
+void PassRun::expectStride(std::string_view port, std::size_t stride) {
+    const InPort* declared = type_.findIn(port);
+    HONE_ASSERT(declared == nullptr || declared->type.stride == stride,
+                "another element: " + std::string(port));
+}
+
+PassRun& PassRun::bytes(std::string_view port, std::span<const std::byte> elements,
+                        std::size_t capacity, std::vector<ParamValue> edge_params) {
     Slot& slot = inputSlot(port);
     const InPort& declared = *type_.findIn(port);
-    HONE_ASSERT(declared.type.stride == stride, "another element: " + std::string(port));
+    const std::size_t stride = declared.type.stride;
     for (std::size_t i = edge_params.size(); i < declared.edge_params.size(); ++i)
         edge_params.push_back(declared.edge_params[i].fallback);
     slot.edge_params = std::move(edge_params);
-    slot.memory = device_->createBuffer(std::max(bytes.size(), capacity * stride), port);
-    slot.value.buffer = slot.memory.view();
-    if (!bytes.empty())
-        std::memcpy(slot.value.buffer.data, bytes.data(), bytes.size());
-    slot.value.count = static_cast<uint>(bytes.size() / stride);
+    allocate(slot, std::max(elements.size(), capacity * stride));
+    std::ranges::copy(elements, slot.value.buffer.data);
+    slot.value.count = static_cast<uint>(elements.size() / stride);
     slot.value.extent = context_.extent;
+    return *this;
+}
+
+/// Room for at least one element, as an executor gives, and the guard behind it.
+void PassRun::allocate(Slot& slot, std::size_t bytes) {
+    const std::size_t used = std::max<std::size_t>(bytes, slot.value.type->stride);
+    slot.memory = device_->createBuffer(used + kGuardBytes, slot.port);
+    slot.value.buffer = slot.memory.view().part(0, used);
+    std::ranges::fill(bytesOf(slot.memory.view()).subspan(used), kGuard);
+}
+
+void PassRun::rememberInputs() {
+    for (Slot& slot : inputs_) {
+        slot.before.clear();
+        if (std::ranges::find(type_.outputs, slot.port, &OutPort::in_place_of) ==
+            type_.outputs.end())
+            slot.before.assign(bytesOf(slot.value.buffer).begin(),
+                               bytesOf(slot.value.buffer).end());
+    }
+}
+
+void PassRun::checkMemory() const {
+    for (const Slot& slot : inputs_)
+        if (!slot.before.empty() && !std::ranges::equal(slot.before, bytesOf(slot.value.buffer)))
+            ADD_FAILURE() << type_.name << " changed its input " << slot.port;
+    for (const std::deque<Slot>* slots : {&inputs_, &outputs_})
+        for (const Slot& slot : *slots)
+            if (slot.memory && std::ranges::any_of(bytesOf(slot.memory.view()).last(kGuardBytes),
+                                                   [](std::byte byte) { return byte != kGuard; }))
+                ADD_FAILURE() << type_.name << " wrote past the end of " << slot.port;
 }
 
 void PassRun::prepareOutputs() {
@@ -185,12 +242,16 @@ void PassRun::prepareOutputs() {
         const std::size_t elements = port.size != nullptr
                                          ? port.size(query)
                                          : std::size_t{context_.extent.x} * context_.extent.y;
-        if (slot.memory && slot.memory.bytes() >= elements * port.type.stride)
-            continue;
-        slot.memory = device_->createBuffer(elements * port.type.stride, port.name);
-        slot.value.type = &port.type;
-        slot.value.buffer = slot.memory.view();
-        slot.value.count = is_list ? 0 : static_cast<uint>(elements);
+        const std::size_t bytes = elements * port.type.stride;
+        if (!slot.memory || slot.value.buffer.bytes < bytes) {
+            slot.value.type = &port.type;
+            allocate(slot, bytes);
+            slot.value.count = is_list ? 0 : static_cast<uint>(elements);
+        }
+        if (has_dirty_outputs_ && port.in_place_of.empty()) {
+            std::ranges::fill(bytesOf(slot.value.buffer), kOld);
+            slot.value.count = static_cast<uint>(elements);
+        }
         slot.value.extent = context_.extent;
     }
 }

@@ -27,12 +27,16 @@ namespace hone {
 /// memory of its own when the input is not connected). They stay between executions, so the pass
 /// can be executed again with other inputs. Throws std::logic_error for ports that the pass does
 /// not have and for elements of another size.
+///
+/// Each execution fails the test if the pass changed an input that no output takes over, or wrote
+/// past the end of a buffer that was made here.
 class PassRun {
 public:
     /// On the host.
     explicit PassRun(PassType type);
-    /// Kernels run on `device`, where the buffers live, too; it must outlive this.
-    PassRun(PassType type, Device& device);
+    /// Buffers live on `device`, which must outlive this, and kernels run there or, as an executor
+    /// chooses for a software device, on the host.
+    PassRun(PassType type, Device& device, bool kernels_on_host = false);
     PassRun(const PassRun&) = delete;
     PassRun& operator=(const PassRun&) = delete;
 
@@ -56,19 +60,23 @@ public:
     template <class T>
     PassRun& plane(std::string_view port, const std::vector<T>& values,
                    std::vector<ParamValue> edge_params = {}) {
-        feed(port, std::as_bytes(std::span(values)), sizeof(T), values.size(),
-             std::move(edge_params));
-        return *this;
+        expectStride(port, sizeof(T));
+        return bytes(port, std::as_bytes(std::span(values)), 0, std::move(edge_params));
     }
     /// Feeds a list with room for `capacity` elements (at least those given) or a record.
     template <class T>
     PassRun& list(std::string_view port, const std::vector<T>& values, std::size_t capacity = 0) {
-        feed(port, std::as_bytes(std::span(values)), sizeof(T), capacity, {});
-        return *this;
+        expectStride(port, sizeof(T));
+        return bytes(port, std::as_bytes(std::span(values)), capacity);
     }
+    /// Feeds a plane, list or record as bytes.
+    PassRun& bytes(std::string_view port, std::span<const std::byte> elements,
+                   std::size_t capacity = 0, std::vector<ParamValue> edge_params = {});
     /// Feeds another pass's output; the memory is shared. Extent, for an input of type Extent.
     PassRun& input(std::string_view port, const Value& value);
 
+    /// From now on outputs begin with old content, as memory that values share has it, not zeroed.
+    PassRun& dirtyOutputs();
     PassRun& execute();
     /// The same after an execution that threw Interrupted.
     PassRun& goOn();
@@ -91,11 +99,14 @@ private:
         Value value;
         Buffer memory;
         std::vector<ParamValue> edge_params;
+        std::vector<std::byte> before; ///< an input's content when the pass began
     };
     Slot& inputSlot(std::string_view port);
-    void feed(std::string_view port, std::span<const std::byte> bytes, std::size_t stride,
-              std::size_t capacity, std::vector<ParamValue> edge_params);
+    void expectStride(std::string_view port, std::size_t stride);
+    void allocate(Slot& slot, std::size_t bytes);
     void prepareOutputs();
+    void rememberInputs();
+    void checkMemory() const;
 
     PassType type_;
     std::unique_ptr<Device> host_;
@@ -108,6 +119,7 @@ private:
     std::unique_ptr<Tracers> tracers_;
     std::deque<Slot> inputs_; // values are pointed at, so they stay where they are
     std::deque<Slot> outputs_;
+    bool has_dirty_outputs_ = false;
 };
 
 } // namespace hone
