@@ -28,12 +28,13 @@ Ray lensRay(Camera camera, uvec2 extent, vec2 position, vec2 lens) {
 
 /// The diameter in pixels of the disc that a point at view depth `depth` is blurred to, negative in
 /// front of the plane of focus: aperture * focal length in pixels * (1 / focus - 1 / depth). A
-/// depth of 0 is that of a pixel that sees nothing: infinitely far. Source: Potmesil and
+/// depth of 0 is that of a pixel that sees nothing: infinitely far. Nothing is blurred as if it
+/// were nearer than a picometre, so diameters and their squares are finite. Source: Potmesil and
 /// Chakravarty, A Lens and Aperture Camera Model for Synthetic Image Generation, 1981; their lens's
 /// focal length cancels out, for the sensor lies where it images the plane of focus.
 float circleOfConfusion(Camera camera, uvec2 extent, float depth) {
     float focal_length = float(extent.y) / (2.0f * camera.tan_half_fov_y);
-    float inverse_depth = depth > 0.0f ? 1.0f / depth : 0.0f;
+    float inverse_depth = depth > 0.0f ? min(1.0f / depth, 1e12f) : 0.0f;
     return 2.0f * camera.lens_radius * focal_length * (1.0f / camera.focus - inverse_depth);
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace hone {
 namespace {
@@ -58,6 +59,16 @@ TEST(CircleOfConfusion, IsThatOfAPhotographersLens) {
     camera.tan_half_fov_y = 0.5f * 0.036f * 1080 / 1920 / sensor_distance;
     Library library;
     EXPECT_NEAR(library.circleOfConfusion(camera, {1920, 1080}, 0), 22.599f, 1e-3f);
+}
+
+TEST(CircleOfConfusion, IsFiniteHoweverNearTheDepth) {
+    Library library;
+    constexpr float kLeast = std::numeric_limits<float>::denorm_min();
+    for (const float depth : {kLeast, std::numeric_limits<float>::min(), 1e-12f}) {
+        const float diameter = library.circleOfConfusion(kLens, kExtent, depth);
+        EXPECT_LT(diameter, 0.0f);
+        EXPECT_TRUE(std::isfinite(diameter * diameter)) << depth;
+    }
 }
 
 TEST(LensRay, ThroughTheCentreIsTheCamerasRay) {
