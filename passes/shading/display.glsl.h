@@ -10,9 +10,10 @@ HONE_CONST uint kCurveClip = 0u;
 HONE_CONST uint kCurveReinhard = 1u;
 
 /// Reinhard's curve (2002, equation 4) with white at 4: keeps dark values, never exceeds 1 below
-/// white.
+/// white. What is brighter is white, however bright: infinity over infinity is no number.
 float reinhard(float x) {
-    return min(x * (1.0f + x * (1.0f / 16.0f)) / (1.0f + x), 1.0f);
+    float cut = min(x, 4.0f);
+    return min(cut * (1.0f + cut * (1.0f / 16.0f)) / (1.0f + cut), 1.0f);
 }
 
 /// Exposed, curved, cut to [0,1] (NaN to 0), sRGB-encoded.
