@@ -13,7 +13,7 @@
 // The task's objects are the scene's, "task_objects" of a scene file.
 //
 // S = 0 takes a pixel out of the order, not out of what is refined in the end: bound passes as it
-// is.
+// is. Errors that are not finite count as 1, negative ones as 0.
 //
 // in   error      Error
 // in   gbuffer    Hits
@@ -32,6 +32,7 @@
 // fall as 1 / (1 + e / 2.3) is our reading.
 #include "hone/passes/passes.h"
 
+#include "hone/core/device/kernel.glsl.h"
 #include "hone/core/trace/ray.glsl.h"
 #include "hone/passes/weight/ckc03/task_distance.h"
 
@@ -43,6 +44,11 @@
 
 namespace hone {
 namespace {
+
+struct Library : HostKernel {
+    Library() : HostKernel(Arguments{}, nullptr) {}
+#include "hone/passes/shading/sanitised.glsl.h"
+};
 
 class Ckc03 final : public RenderPass {
 public:
@@ -63,18 +69,18 @@ public:
         const std::span<vec2> out = context.out("error").as<vec2>();
         const std::span<const float> tolerance =
             context.has("tolerance") ? context.in("tolerance").as<float>() : std::span<float>();
+        Library library;
         const float noticeable = context.param<float>("noticeable");
         const float pixels_per_degree = context.param<float>("pixels_per_degree");
         const float falloff = context.param<float>("falloff_degrees");
         tbb::parallel_for(std::size_t{0}, in.size(), [&](std::size_t pixel) {
             const float acuity =
                 acuityAt(std::sqrt(distances_[pixel]) / pixels_per_degree, falloff);
-            // A metric that failed says "unknown", as combine reads it.
-            const float expect = std::isfinite(in[pixel].x) ? in[pixel].x : 1.0f;
-            const float noticed =
-                expect / (tolerance.empty() ? noticeable : tolerance[pixel]) - 1.0f;
-            const float seen = acuity * std::max(noticed, 0.0f);
-            out[pixel] = {std::min(seen, std::numeric_limits<float>::max()), in[pixel].y};
+            const bool is_known = !tolerance.empty() && tolerance[pixel] > 0;
+            const float least = is_known ? tolerance[pixel] : noticeable;
+            const float noticed = std::min(library.sanitised(in[pixel].x) / least - 1.0f,
+                                           std::numeric_limits<float>::max());
+            out[pixel] = {acuity * std::max(noticed, 0.0f), library.sanitised(in[pixel].y)};
         });
     }
 

@@ -15,7 +15,8 @@
 // above it.
 //
 // out expect = in expect / tolerance, in just noticeable differences. bound passes as it is: what
-// is not noticed may be wrong all the same. Computed at half resolution, each 2 x 2 pixels one
+// is not noticed may be wrong all the same. Errors that are not finite count as 1, negative ones as
+// 0. Computed at half resolution, each 2 x 2 pixels one
 // tolerance.
 //
 // What the source has and this has not: velocities by pixel (the scene does not move), and a map of
@@ -36,6 +37,7 @@
 // Rendering of Dynamic Environments, 2001; its structure as we recall it, constants in vision.h.
 #include "hone/passes/passes.h"
 
+#include "hone/core/device/kernel.glsl.h"
 #include "hone/passes/weight/ypg01/vision.h"
 
 #include <tbb/parallel_for.h>
@@ -44,9 +46,15 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace hone {
 namespace {
+
+struct Library : HostKernel {
+    Library() : HostKernel(Arguments{}, nullptr) {}
+#include "hone/passes/shading/sanitised.glsl.h"
+};
 
 constexpr std::size_t kOctaves = 7;
 
@@ -116,12 +124,13 @@ public:
         const std::span<const vec2> in = context.in("error").as<vec2>();
         const std::span<vec2> out = context.out("error").as<vec2>();
         const std::span<float> tolerance = context.out("tolerance").as<float>();
+        Library library;
         forEachPixel(context.extent, [&](uint x, uint y) {
             const std::size_t pixel = std::size_t{y} * context.extent.x + x;
             tolerance[pixel] = tolerance_.at(x / 2, y / 2);
-            const float expect = in[pixel].x / tolerance[pixel];
-            // A metric that failed says "unknown", as combine reads it.
-            out[pixel] = {std::isfinite(expect) ? expect : 1.0f / tolerance[pixel], in[pixel].y};
+            const float expect = library.sanitised(in[pixel].x) / tolerance[pixel];
+            out[pixel] = {std::min(expect, std::numeric_limits<float>::max()),
+                          library.sanitised(in[pixel].y)};
         });
     }
 

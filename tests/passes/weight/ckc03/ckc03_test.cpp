@@ -117,5 +117,17 @@ TEST(Ckc03, IsFiniteAndPositiveWhateverTheErrors) {
         EXPECT_TRUE(error.x >= 0 && std::isfinite(error.x)) << error.x;
 }
 
+TEST(Ckc03, LeavesNothingOfTheGreatestErrorsWhereNobodyLooks) {
+    constexpr float kMost = std::numeric_limits<float>::max();
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    const Scene scene = sceneOf({3});
+    PassRun run(ckc03WeightPass());
+    row(run, scene).param("falloff_degrees", 0.0f);
+    run.plane<vec2>("error", {{kMost, 1}, {kMost, kNan}, {kMost, -1}, {0, 0}, {0, kMost}});
+    // 0 times what is more than a float holds once it is divided by 0.01.
+    EXPECT_EQ(run.execute().output<vec2>("error"),
+              (std::vector<vec2>{{kMost, 1}, {0, 1}, {0, 0}, {0, 0}, {0, kMost}}));
+}
+
 } // namespace
 } // namespace hone

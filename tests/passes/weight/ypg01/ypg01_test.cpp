@@ -125,5 +125,18 @@ TEST(Ypg01, IsFiniteAndPositiveWhateverTheImageHolds) {
     EXPECT_EQ(run.output<vec2>("error")[2], vec2(0.0f));
 }
 
+TEST(Ypg01, TakesOnlyWhatIsNotFiniteForAFailedMetric) {
+    constexpr float kMost = std::numeric_limits<float>::max();
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    PassRun run(ypg01WeightPass());
+    show(run, {3, 1}, std::vector<float>(3, 0.5f));
+    run.plane<vec2>("error", {{kMost, kMost}, {kNan, kNan}, {-1, -1}}).execute();
+    const std::vector<vec2> error = run.output<vec2>("error");
+    EXPECT_EQ(error[0], vec2(kMost)) << "in units of the tolerance it is more than a float holds";
+    EXPECT_FLOAT_EQ(error[1].x, 1 / run.output<float>("tolerance")[1]);
+    EXPECT_EQ(error[1].y, 1.0f);
+    EXPECT_EQ(error[2], vec2(0.0f));
+}
+
 } // namespace
 } // namespace hone
