@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hone/passes/shading/sanitised.glsl.h"
+
 #include "hone/passes/shading/srgb.glsl.h"
 
 struct Params {
@@ -78,6 +80,11 @@ float shownError(float value, float off) {
     return value >= off ? less : max(less, shown(value + off) - here);
 }
 
+/// What is blurred with something that is no number is none itself.
+float expected(float value, float off) {
+    return isFinite(value) ? sanitised(shownError(value, off)) : 1.0f;
+}
+
 /// The steps to the pixel's neighbours. Where they are blurred to more than a pixel or two, this is
 /// nothing.
 vec3 lossAtNeighbours(uint index) {
@@ -155,8 +162,8 @@ void kernel(uint index) {
                    (front_step + 2.0f * deviationOf(front));
         }
     }
-    float expect = max(max(shownError(blurred.x, off.x), shownError(blurred.y, off.y)),
-                       shownError(blurred.z, off.z));
+    float expect = max(max(expected(blurred.x, off.x), expected(blurred.y, off.y)),
+                       expected(blurred.z, off.z));
     bool may_be_wrong = flagged[index] != 0u || expect > params.least;
     error[index] = may_be_wrong ? vec2(expect, max(1.0f, expect)) : vec2(0.0f);
 }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace hone {
 namespace {
@@ -196,6 +197,19 @@ TEST(DofLayers, ExpectNoErrorOfOneColourButBoundNone) {
     for (uint i = 0; i < kPixels; ++i) {
         EXPECT_NEAR(error[i].x, 0.0f, 1e-3f); // rounding of squares
         EXPECT_EQ(error[i].y, std::abs(static_cast<float>(i % 64) - 31.5f) < 9 ? 1.0f : 0.0f);
+    }
+}
+
+TEST(DofLayers, TakeWhatIsNoNumberForWrongWhereverItSpreads) {
+    for (const char* space : {"linear", "display"}) {
+        DofRun run(paint([](float, float) { return 2.0f; })); // discs of radius 8
+        estimate(run, [](float x, float y) {
+            return x == 0.5f && y == 0.5f ? std::numeric_limits<float>::quiet_NaN() : 0.5f;
+        });
+        const std::vector<vec2> error = errorOf(run.param("space", space));
+        EXPECT_EQ(error[32 * 64 + 32], vec2(1)) << space;
+        EXPECT_EQ(error[32 * 64 + 36], vec2(1)) << space;
+        EXPECT_EQ(error[32 * 64 + 44], vec2(0)) << space;
     }
 }
 
