@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/core/trace/sample.glsl.h"
-#include "hone/passes/passes.h"
-#include "hone/tests/support/run_pass.h"
+#include "hone/tests/support/each_build.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +9,11 @@
 namespace hone {
 namespace {
 
-TEST(Accumulate, AddsAPixelsSamplesAndCountsThem) {
-    PassRun run(accumulatePass());
+class Accumulate : public EachBuild {};
+HONE_ON_EACH_BUILD(Accumulate);
+
+TEST_P(Accumulate, AddsAPixelsSamplesAndCountsThem) {
+    PassRun run = pass(accumulatePass());
     run.extent({3, 1});
     run.list<Sample>("samples", {{{1, 2, 3}, 2}, {{4, 5, 6}, 0}, {{7, 8, 9}, 0}}, 10).execute();
     const std::vector<Accumulated> sums = run.output<Accumulated>("accumulation");
@@ -23,21 +25,21 @@ TEST(Accumulate, AddsAPixelsSamplesAndCountsThem) {
     EXPECT_EQ(sums[2].count, 1);
 }
 
-TEST(Accumulate, GoesOnFromTheSumsItIsGiven) {
-    PassRun run(accumulatePass());
+TEST_P(Accumulate, GoesOnFromTheSumsItIsGiven) {
+    PassRun run = pass(accumulatePass());
     run.extent({1, 1}).plane<Accumulated>("accumulation", {{{1, 1, 1}, 3}});
     run.list<Sample>("samples", {{{2, 0, 0}, 0}}).execute();
     EXPECT_EQ(run.output<Accumulated>("accumulation").front().sum, vec3(3, 1, 1));
     EXPECT_EQ(run.output<Accumulated>("accumulation").front().count, 4);
 }
 
-TEST(Accumulate, SumsInSampleOrderHoweverSamplesAreBatched) {
+TEST_P(Accumulate, SumsInSampleOrderHoweverSamplesAreBatched) {
     // Terms whose float sum depends on the order: 1, then many of half an ulp of 1.
     const uint count = 100;
     std::vector<Sample> samples(count, {vec3(std::ldexp(1.0f, -24)), 0});
     samples[0].radiance = vec3(1.0f);
     for (uint batch : {1u, 7u, 50u, count}) {
-        PassRun run(accumulatePass());
+        PassRun run = pass(accumulatePass());
         run.extent({1, 1});
         for (uint begin = 0; begin < count; begin += batch) {
             const auto first = samples.begin() + begin;

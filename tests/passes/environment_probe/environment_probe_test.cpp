@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/passes/passes.h"
-#include "hone/tests/support/run_pass.h"
+#include "hone/tests/support/each_build.h"
 #include "hone/tests/support/scene_builder.h"
-#include "hone/tests/support/vulkan_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -27,20 +25,22 @@ void addWall(test::SceneBuilder& builder, vec3 axis, float distance, vec3 glow) 
     builder.add(positions, triangles, builder.addMaterial(material));
 }
 
-class EnvironmentProbe : public VulkanTest {
+class EnvironmentProbe : public EachRasterBuild {
 protected:
-    std::vector<vec4> mapsOf(const Scene& scene) {
-        PassRun run(environmentProbePass(), device());
+    static std::vector<vec4> mapsOf(const Scene& scene) {
+        PassRun run = pass(environmentProbePass());
         run.scene(scene).param("size", kSize).execute();
         return run.output<vec4>("maps");
     }
 };
 
+HONE_ON_EACH_BUILD(EnvironmentProbe);
+
 vec4 texel(const std::vector<vec4>& maps, uint probe, uint face, uint x, uint y) {
     return maps[1 + ((probe * 6 + face) * kSize + y) * kSize + x];
 }
 
-TEST_F(EnvironmentProbe, SeesRadianceAndEuclideanDistanceOnEachFace) {
+TEST_P(EnvironmentProbe, SeesRadianceAndEuclideanDistanceOnEachFace) {
     const vec3 axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     test::SceneBuilder builder;
     for (uint face = 0; face < 6; ++face)
@@ -59,7 +59,7 @@ TEST_F(EnvironmentProbe, SeesRadianceAndEuclideanDistanceOnEachFace) {
     }
 }
 
-TEST_F(EnvironmentProbe, LeavesItsOwnObjectOut) {
+TEST_P(EnvironmentProbe, LeavesItsOwnObjectOut) {
     test::SceneBuilder builder;
     addWall(builder, vec3(1, 0, 0), 2.0f, vec3(1, 0, 0));
     addWall(builder, vec3(1, 0, 0), 1.0f, vec3(0, 1, 0));
@@ -70,7 +70,7 @@ TEST_F(EnvironmentProbe, LeavesItsOwnObjectOut) {
     EXPECT_NEAR(texel(maps, 1, 0, 8, 8).y, 1.0f, 1e-6f) << "another probe sees the object";
 }
 
-TEST_F(EnvironmentProbe, SeesTheSkyWhereNothingIs) {
+TEST_P(EnvironmentProbe, SeesTheSkyWhereNothingIs) {
     test::SceneBuilder builder;
     addWall(builder, vec3(1, 0, 0), 2.0f, vec3(1, 0, 0));
     Scene scene = builder.finish();
@@ -82,7 +82,7 @@ TEST_F(EnvironmentProbe, SeesTheSkyWhereNothingIs) {
     EXPECT_EQ(up.w, 1e30f);
 }
 
-TEST_F(EnvironmentProbe, DoesNotSeeBackFaces) {
+TEST_P(EnvironmentProbe, DoesNotSeeBackFaces) {
     // The nearer wall is turned away: it faces -x as seen from x > 1 only.
     test::SceneBuilder builder;
     addWall(builder, vec3(1, 0, 0), 2.0f, vec3(1, 0, 0));

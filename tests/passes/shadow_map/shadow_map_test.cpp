@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/passes/passes.h"
-#include "hone/tests/support/run_pass.h"
+#include "hone/tests/support/each_build.h"
 #include "hone/tests/support/scene_builder.h"
-#include "hone/tests/support/vulkan_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -32,20 +30,22 @@ Light pointLight(vec3 position) {
     return light;
 }
 
-class ShadowMap : public VulkanTest {
+class ShadowMap : public EachRasterBuild {
 protected:
-    std::vector<float> mapsOf(const Scene& scene, uint points = 5) {
-        PassRun run(shadowMapPass(), device());
+    static std::vector<float> mapsOf(const Scene& scene, uint points = 5) {
+        PassRun run = pass(shadowMapPass());
         run.scene(scene).param("size", kSize).param("points", points).execute();
         return run.output<float>("maps");
     }
 };
 
+HONE_ON_EACH_BUILD(ShadowMap);
+
 float texel(const std::vector<float>& maps, uint map, uint face, uint x, uint y) {
     return maps[kHeader + ((map * 6 + face) * kSize + y) * kSize + x];
 }
 
-TEST_F(ShadowMap, HoldsDepthAlongTheAxisOfTheFace) {
+TEST_P(ShadowMap, HoldsDepthAlongTheAxisOfTheFace) {
     // A floor 5 below the light fills the face that looks down (3) with 5, corners included.
     test::SceneBuilder builder;
     addFloor(builder, builder.addMaterial(test::plainMaterial()), 0, 100);
@@ -61,7 +61,7 @@ TEST_F(ShadowMap, HoldsDepthAlongTheAxisOfTheFace) {
     EXPECT_EQ(texel(maps, 0, 0, 30, 31), 1e30f) << "above the horizon";
 }
 
-TEST_F(ShadowMap, SeesBothFaces) {
+TEST_P(ShadowMap, SeesBothFaces) {
     test::SceneBuilder builder;
     addFloor(builder, builder.addMaterial(test::plainMaterial()), 0, 100);
     Scene scene = builder.finish();
@@ -69,7 +69,7 @@ TEST_F(ShadowMap, SeesBothFaces) {
     EXPECT_NEAR(texel(mapsOf(scene), 0, 2, 30, 30), 2.0f, 1e-4f);
 }
 
-TEST_F(ShadowMap, LooksThroughHolesOfMaskedMaterials) {
+TEST_P(ShadowMap, LooksThroughHolesOfMaskedMaterials) {
     // A square at height 3 whose left half (u < 1/2) is a hole, over a floor.
     test::SceneBuilder builder;
     Material masked = test::plainMaterial(kMaterialMasked);
@@ -85,7 +85,7 @@ TEST_F(ShadowMap, LooksThroughHolesOfMaskedMaterials) {
     EXPECT_NEAR(texel(maps, 0, 3, 50, 30), 2.0f, 1e-4f);
 }
 
-TEST_F(ShadowMap, OfADirectionalLightIsABoxAroundTheScene) {
+TEST_P(ShadowMap, OfADirectionalLightIsABoxAroundTheScene) {
     // The floor's sphere has the radius 2 sqrt(2); the box begins that far above it.
     test::SceneBuilder builder;
     addFloor(builder, builder.addMaterial(test::plainMaterial()), 1, 2);
@@ -105,7 +105,7 @@ TEST_F(ShadowMap, OfADirectionalLightIsABoxAroundTheScene) {
     EXPECT_EQ(texel(maps, 0, 3, 32, 32), 1e30f) << "only the first face is used";
 }
 
-TEST_F(ShadowMap, OfARectangleHasFivePointsAndNothingBehind) {
+TEST_P(ShadowMap, OfARectangleHasFivePointsAndNothingBehind) {
     test::SceneBuilder builder;
     const uint material = builder.addMaterial(test::plainMaterial());
     addFloor(builder, material, 0, 100);
@@ -138,7 +138,7 @@ Scene floorUnder(const Light& light) {
     return scene;
 }
 
-TEST_F(ShadowMap, OfADiscHasPointsOnItsRim) {
+TEST_P(ShadowMap, OfADiscHasPointsOnItsRim) {
     Light disc = pointLight({0, 5, 0});
     disc.kind = kLightDisc;
     disc.direction = vec3(0, -1, 0);
@@ -153,7 +153,7 @@ TEST_F(ShadowMap, OfADiscHasPointsOnItsRim) {
     EXPECT_EQ(texel(maps, 0, 2, 32, 32), 1e30f);
 }
 
-TEST_F(ShadowMap, OfASphereHasPointsToAllSides) {
+TEST_P(ShadowMap, OfASphereHasPointsToAllSides) {
     Light sphere = pointLight({0, 5, 0});
     sphere.kind = kLightSphere;
     sphere.radius = 1.5f;
@@ -166,7 +166,7 @@ TEST_F(ShadowMap, OfASphereHasPointsToAllSides) {
         EXPECT_NEAR(texel(maps, k, 3, 32, 32), depths[k], 1e-4f) << k;
 }
 
-TEST_F(ShadowMap, OfTheSunIsSeenFromSeveralDirections) {
+TEST_P(ShadowMap, OfTheSunIsSeenFromSeveralDirections) {
     Light sun = pointLight({0, 0, 0});
     sun.kind = kLightDirectional;
     sun.direction = vec3(0, -1, 0);
@@ -185,7 +185,7 @@ TEST_F(ShadowMap, OfTheSunIsSeenFromSeveralDirections) {
     EXPECT_EQ(mapsOf(scene).size(), kHeader + 6 * kSize * kSize) << "one direction";
 }
 
-TEST_F(ShadowMap, OfALightThatNothingBlocksIsNone) {
+TEST_P(ShadowMap, OfALightThatNothingBlocksIsNone) {
     Light light = pointLight({0, 5, 0});
     Scene scene = floorUnder(light);
     scene.lights = {light, light};

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/passes/passes.h"
-#include "hone/tests/support/run_pass.h"
+#include "hone/tests/support/each_build.h"
 #include "hone/tests/support/scene_builder.h"
-#include "hone/tests/support/vulkan_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -39,33 +37,28 @@ std::vector<float> errorsOf(PassRun& run, const Scene& scene) {
     return errors;
 }
 
-TEST(Cab10, FlagsWhatReflectsOrIsTransparent) {
+class Cab10 : public EachBuild {};
+HONE_ON_EACH_BUILD(Cab10);
+
+TEST_P(Cab10, FlagsWhatReflectsOrIsTransparent) {
     const Scene scene = fourMaterials();
-    PassRun run(cab10ErrorPass());
+    PassRun run = pass(cab10ErrorPass());
     EXPECT_EQ(errorsOf(run, scene), (std::vector<float>{0, 1, 0, 1, 0}));
 }
 
-TEST(Cab10, LeavesTransparencyOutWhenAsked) {
+TEST_P(Cab10, LeavesTransparencyOutWhenAsked) {
     const Scene scene = fourMaterials();
-    PassRun run(cab10ErrorPass());
+    PassRun run = pass(cab10ErrorPass());
     run.param("transparent", false);
     EXPECT_EQ(errorsOf(run, scene), (std::vector<float>{0, 1, 0, 0, 0}));
 }
 
-TEST(Cab10, IsTheFirstReflectionMetricWhereThereIsNoTransparency) {
+TEST_P(Cab10, IsTheFirstReflectionMetricWhereThereIsNoTransparency) {
     const Scene scene = fourMaterials();
-    PassRun cab10(cab10ErrorPass()), first(reflectionErrorPass());
+    PassRun cab10 = pass(cab10ErrorPass()), first = pass(reflectionErrorPass());
     cab10.param("transparent", false);
     first.param("metric", 1u);
     EXPECT_EQ(errorsOf(cab10, scene), errorsOf(first, scene));
-}
-
-class Cab10Vulkan : public VulkanTest {};
-
-TEST_F(Cab10Vulkan, FlagsAsTheHostDoes) {
-    const Scene scene = fourMaterials();
-    PassRun run(cab10ErrorPass(), device());
-    EXPECT_EQ(errorsOf(run, scene), (std::vector<float>{0, 1, 0, 1, 0}));
 }
 
 } // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/passes/passes.h"
-#include "hone/tests/support/run_pass.h"
+#include "hone/tests/support/each_build.h"
 #include "hone/tests/support/shadow_scenes.h"
-#include "hone/tests/support/vulkan_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -16,20 +14,19 @@ using namespace test;
 
 constexpr uint kMapSize = 512;
 
-class Kbm10Error : public VulkanTest {
+class Kbm10Error : public EachRasterBuild {
 protected:
     static constexpr uvec2 kExtent{128, 128};
 
     /// The error of each pixel, by the maps of the scene's lights.
     std::vector<vec2> errorOf(const Scene& scene, const Camera& camera, uint points = 5,
                               uint dilation = 2, bool include_umbra = false) {
-        PassRun maps(shadowMapPass(), device());
-        maps.kernelsOnHost().scene(scene);
-        maps.param("size", kMapSize).param("points", points).execute();
-        PassRun raster(rasterPass(), device());
-        raster.kernelsOnHost().extent(kExtent).scene(scene).camera(camera).execute();
-        PassRun error(kbm10ErrorPass(), device());
-        error.kernelsOnHost().extent(kExtent).scene(scene).camera(camera);
+        PassRun maps = pass(shadowMapPass());
+        maps.scene(scene).param("size", kMapSize).param("points", points).execute();
+        PassRun raster = pass(rasterPass());
+        raster.extent(kExtent).scene(scene).camera(camera).execute();
+        PassRun error = pass(kbm10ErrorPass());
+        error.extent(kExtent).scene(scene).camera(camera);
         error.param("dilation", dilation).param("include_umbra", include_umbra);
         error.input("gbuffer", raster.value("gbuffer"));
         error.input("shadow_maps", maps.value("maps")).execute();
@@ -37,7 +34,9 @@ protected:
     }
 };
 
-TEST_F(Kbm10Error, FlagsThePenumbraOfAStraightEdge) {
+HONE_ON_EACH_BUILD(Kbm10Error);
+
+TEST_P(Kbm10Error, FlagsThePenumbraOfAStraightEdge) {
     // The penumbra is L h / (H - h) = 4/3 wide: |x| <= 2/3.
     const std::vector<vec2> error = errorOf(edgeOverFloor(lampOf()), lookingDown());
     const float pixel = 7.0f / 128;
@@ -55,7 +54,7 @@ TEST_F(Kbm10Error, FlagsThePenumbraOfAStraightEdge) {
     }
 }
 
-TEST_F(Kbm10Error, FlagsTheEdgeOfAMapAroundAPointLight) {
+TEST_P(Kbm10Error, FlagsTheEdgeOfAMapAroundAPointLight) {
     Scene scene = edgeOverFloor(lampOf());
     scene.lights[0].kind = kLightPoint;
     const std::vector<vec2> error = errorOf(scene, lookingDown(), 1, 0);
@@ -73,7 +72,7 @@ TEST_F(Kbm10Error, FlagsTheEdgeOfAMapAroundAPointLight) {
     }
 }
 
-TEST_F(Kbm10Error, DilatesByPixelsToEachSide) {
+TEST_P(Kbm10Error, DilatesByPixelsToEachSide) {
     const std::vector<vec2> narrow = errorOf(edgeOverFloor(lampOf()), lookingDown(), 5, 0);
     const std::vector<vec2> wide = errorOf(edgeOverFloor(lampOf()), lookingDown(), 5, 3);
     // Along the middle row.
@@ -85,13 +84,13 @@ TEST_F(Kbm10Error, DilatesByPixelsToEachSide) {
     EXPECT_EQ(wide_count, narrow_count + 6);
 }
 
-TEST_F(Kbm10Error, FlagsTheUmbraWhenAsked) {
+TEST_P(Kbm10Error, FlagsTheUmbraWhenAsked) {
     const std::vector<vec2> error = errorOf(edgeOverFloor(lampOf()), lookingDown(), 5, 0, true);
     EXPECT_EQ(error[64 * 128 + 10].x, 1.0f) << "in the umbra";
     EXPECT_EQ(error[64 * 128 + 117].x, 0.0f) << "in the light";
 }
 
-TEST_F(Kbm10Error, IsNothingOnALitFloor) {
+TEST_P(Kbm10Error, IsNothingOnALitFloor) {
     SceneBuilder builder;
     addSquare(builder, vec3(0), vec3(1, 0, 0), vec3(0, 0, -1));
     Scene scene = builder.finish();
@@ -100,7 +99,7 @@ TEST_F(Kbm10Error, IsNothingOnALitFloor) {
         EXPECT_EQ(error, vec2(0.0f));
 }
 
-TEST_F(Kbm10Error, IsNothingOnAReceiverSlantedBy80Degrees) {
+TEST_P(Kbm10Error, IsNothingOnAReceiverSlantedBy80Degrees) {
     // Its own neighbours in the map must not count as what blocks it, whichever way it leans.
     for (float turn : {0.0f, 0.4f, 0.785398f}) {
         const float angle = 80 * 0.017453293f;
@@ -121,7 +120,7 @@ TEST_F(Kbm10Error, IsNothingOnAReceiverSlantedBy80Degrees) {
     }
 }
 
-TEST_F(Kbm10Error, IsNothingWhereNoLightCanArrive) {
+TEST_P(Kbm10Error, IsNothingWhereNoLightCanArrive) {
     // From below, the floor turns its back to the lamp; the half-plane's shadow does not matter.
     const Camera camera = cameraAt({0, -3.5f, 0}, {0, 1, 0}, {0, 0, -1});
     for (const vec2& error : errorOf(edgeOverFloor(lampOf()), camera))

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hone/passes/passes.h"
+#include "hone/tests/support/each_build.h"
 #include "hone/tests/support/lens_scenes.h"
-#include "hone/tests/support/run_pass.h"
-#include "hone/tests/support/vulkan_fixture.h"
 
 #include <gtest/gtest.h>
 
@@ -13,21 +11,21 @@
 namespace hone {
 namespace {
 
+class PropagateError : public EachBuild {};
+HONE_ON_EACH_BUILD(PropagateError);
+
 constexpr uvec2 kExtent{64, 64}; // the focal length of lensCamera() is 64 pixels
 constexpr uint kPixels = 64 * 64;
 const Camera kLens = test::lensCamera(1, 4);
 
 std::vector<vec2> propagated(const std::vector<vec2>& error, const std::vector<float>& depth,
-                             const char* mode = "propagate", const std::vector<vec2>& post = {},
-                             Device* device = nullptr) {
-    std::unique_ptr<PassRun> run = device != nullptr
-                                       ? std::make_unique<PassRun>(propagateErrorPass(), *device)
-                                       : std::make_unique<PassRun>(propagateErrorPass());
-    run->extent(kExtent).camera(kLens).param("mode", mode).param("taps", 0u);
-    run->plane("error", error).plane("depth", depth);
+                             const char* mode = "propagate", const std::vector<vec2>& post = {}) {
+    PassRun run = EachBuild::pass(propagateErrorPass());
+    run.extent(kExtent).camera(kLens).param("mode", mode).param("taps", 0u);
+    run.plane("error", error).plane("depth", depth);
     if (!post.empty())
-        run->plane("post", post);
-    return run->execute().output<vec2>("error");
+        run.plane("post", post);
+    return run.execute().output<vec2>("error");
 }
 
 /// Blurred over 16 pixels, and sharp.
@@ -43,7 +41,7 @@ std::vector<float> roughDepth() {
 }
 
 // SCIENCE 9.19.
-TEST(PropagateError, SpreadsAWrongPixelOverItsDiscAndKeepsTheSum) {
+TEST_P(PropagateError, SpreadsAWrongPixelOverItsDiscAndKeepsTheSum) {
     std::vector<vec2> error(kPixels, vec2(0));
     error[32 * 64 + 32] = vec2(0.5f, 1.0f);
     const std::vector<vec2> spread = propagated(error, kBlurred);
@@ -65,7 +63,7 @@ TEST(PropagateError, SpreadsAWrongPixelOverItsDiscAndKeepsTheSum) {
 }
 
 // Where no pixel is without an error nothing is passed over.
-TEST(PropagateError, PassesOverOnlyWhatNothingWrongReaches) {
+TEST_P(PropagateError, PassesOverOnlyWhatNothingWrongReaches) {
     std::vector<float> depth = roughDepth();
     for (uint i = 0; i < kPixels; ++i)
         if (i / 64 > 40)
@@ -83,14 +81,14 @@ TEST(PropagateError, PassesOverOnlyWhatNothingWrongReaches) {
     EXPECT_GT(reached, 1000u);
 }
 
-TEST(PropagateError, KeepsTheBitsWhereNothingIsBlurred) {
+TEST_P(PropagateError, KeepsTheBitsWhereNothingIsBlurred) {
     std::vector<vec2> error(kPixels);
     for (uint i = 0; i < kPixels; ++i)
         error[i] = vec2(static_cast<float>(i % 97), static_cast<float>(i % 101)) / 7.0f;
     EXPECT_EQ(propagated(error, kSharp), error);
 }
 
-TEST(PropagateError, NeverFallsBelowWhatTheFilterDoesToTheImage) {
+TEST_P(PropagateError, NeverFallsBelowWhatTheFilterDoesToTheImage) {
     // Two images and their difference through the same filter: |F(a) - F(b)| <= F(|a - b|).
     const std::vector<float> depth = roughDepth();
     std::mt19937 random(5);
@@ -102,7 +100,7 @@ TEST(PropagateError, NeverFallsBelowWhatTheFilterDoesToTheImage) {
         error[i] = vec2(std::abs(a[i].x - b[i].x));
     }
     const auto blurred = [&](const std::vector<vec3>& image) {
-        PassRun run(depthOfFieldPass());
+        PassRun run = EachBuild::pass(depthOfFieldPass());
         run.extent(kExtent).camera(kLens).param("taps", 0u);
         return run.plane("image", image).plane("depth", depth).execute().output<vec3>("color");
     };
@@ -112,7 +110,7 @@ TEST(PropagateError, NeverFallsBelowWhatTheFilterDoesToTheImage) {
         EXPECT_LE(std::abs(blurred_a[i].x - blurred_b[i].x), bound[i].y + 1e-6f) << i;
 }
 
-TEST(PropagateError, ComposesWithTheErrorOfTheBlur) {
+TEST_P(PropagateError, ComposesWithTheErrorOfTheBlur) {
     const std::vector<vec2> error(kPixels, vec2(0.5f, 0.75f)), post(kPixels, vec2(0.25f, 1.0f));
     const auto at = [&](const char* mode) { return propagated(error, kSharp, mode, post).front(); };
     EXPECT_EQ(at("propagate"), vec2(0.75f, 1.75f));
@@ -121,14 +119,14 @@ TEST(PropagateError, ComposesWithTheErrorOfTheBlur) {
     EXPECT_EQ(at("noisy_or"), vec2(0.625f, 1.0f)); // 1 - 0.5 * 0.75
 }
 
-TEST(PropagateError, ComposesPixelByPixelUnlessItPropagates) {
+TEST_P(PropagateError, ComposesPixelByPixelUnlessItPropagates) {
     std::vector<vec2> error(kPixels, vec2(0));
     error[32 * 64 + 32] = vec2(1);
     for (const char* mode : {"max", "sum", "noisy_or"})
         EXPECT_EQ(propagated(error, kBlurred, mode), error) << mode;
 }
 
-TEST(PropagateError, IsFiniteAndNotNegativeWhateverComes) {
+TEST_P(PropagateError, IsFiniteAndNotNegativeWhateverComes) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     std::vector<vec2> error(kPixels, vec2(-1, NAN));
     std::fill(error.begin() + 2000, error.end(), vec2(std::numeric_limits<float>::max()));
@@ -141,23 +139,6 @@ TEST(PropagateError, IsFiniteAndNotNegativeWhateverComes) {
     const std::vector<vec2> sharp = propagated(error, kSharp);
     EXPECT_EQ(sharp[0], vec2(0, 1));
     EXPECT_EQ(sharp[7].x, 1.0f);
-}
-
-class PropagateErrorVulkan : public VulkanTest {};
-
-TEST_F(PropagateErrorVulkan, PropagatesAsTheHostDoes) {
-    std::vector<vec2> error(kPixels);
-    for (uint i = 0; i < kPixels; ++i)
-        error[i] = vec2(static_cast<float>(i % 97), static_cast<float>(i % 101)) / 101.0f;
-    std::vector<float> depth(kPixels);
-    for (uint i = 0; i < kPixels; ++i)
-        depth[i] = i % 64 < 20 ? 0.0f : i / 64 < 30 ? 2.0f : 5 + 0.02f * static_cast<float>(i % 64);
-    for (const char* mode : {"propagate", "max", "sum", "noisy_or"}) {
-        const std::vector<vec2> host = propagated(error, depth, mode, error);
-        const std::vector<vec2> vulkan = propagated(error, depth, mode, error, &device());
-        for (uint i = 0; i < kPixels; ++i)
-            EXPECT_LT(glm::distance(host[i], vulkan[i]), 1e-4f) << mode << " " << i;
-    }
 }
 
 } // namespace

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/backends/brute/brute_backend.h"
-#include "hone/passes/passes.h"
-#include "hone/tests/support/run_pass.h"
+#include "hone/tests/support/each_build.h"
 #include "hone/tests/support/scene_builder.h"
-#include "hone/tests/support/vulkan_fixture.h"
 
 #include "hone/core/device/host_kernel.h"
 
@@ -42,17 +40,12 @@ std::vector<Hit> seen(const Scene& scene, const Camera& camera) {
     return hits;
 }
 
-std::vector<float> occlusionOf(PassRun& run, const Scene& scene, const CameraDesc& from,
-                               uint steps = 12) {
+std::vector<float> occlusionOf(const Scene& scene, const CameraDesc& from, uint steps = 12) {
+    PassRun run = EachBuild::pass(screenOcclusionPass());
     const Camera camera = makeCamera(from);
     run.extent(kExtent).scene(scene).camera(camera).plane("gbuffer", seen(scene, camera));
     run.param("rays", 128u).param("steps", steps).execute();
     return run.output<float>("occlusion");
-}
-
-std::vector<float> occlusionOf(const Scene& scene, const CameraDesc& from, uint steps = 12) {
-    PassRun run(screenOcclusionPass());
-    return occlusionOf(run, scene, from, steps);
 }
 
 /// A floor and a wall 3 high that stands 4 beside the origin.
@@ -85,24 +78,27 @@ float atOrigin(const std::vector<float>& occlusion) {
     return std::accumulate(middle - kHalf, middle + kHalf, 0.0f) / (2 * kHalf);
 }
 
-TEST(ScreenOcclusion, OfALongWallIsHalfOfOneLessTheCosineOfItsHeight) {
+class ScreenOcclusion : public EachBuild {};
+HONE_ON_EACH_BUILD(ScreenOcclusion);
+
+TEST_P(ScreenOcclusion, OfALongWallIsHalfOfOneLessTheCosineOfItsHeight) {
     // (1 - d / sqrt(d^2 + h^2)) / 2 with h = 3, d = 4: 0.1. The wall hides from the camera only a
     // little of the rays that just meet it, which takes many steps to find.
     EXPECT_NEAR(atOrigin(occlusionOf(floorAndWall(mirror(kMaterialTwoSided), true), kBeside, 96)),
                 0.1f, 0.02f);
 }
 
-TEST(ScreenOcclusion, CountsTheOwnObjectOnly) {
+TEST_P(ScreenOcclusion, CountsTheOwnObjectOnly) {
     EXPECT_EQ(atOrigin(occlusionOf(floorAndWall(mirror(kMaterialTwoSided), false), kBeside)), 0.0f);
 }
 
-TEST(ScreenOcclusion, IsNothingForWhatIsNoMirrorOrNotSeen) {
+TEST_P(ScreenOcclusion, IsNothingForWhatIsNoMirrorOrNotSeen) {
     for (float occlusion :
          occlusionOf(floorAndWall(test::plainMaterial(kMaterialTwoSided), true), kBeside))
         EXPECT_EQ(occlusion, 0.0f);
 }
 
-TEST(ScreenOcclusion, DoesNotKnowWhatTheImageDoesNotShow) {
+TEST_P(ScreenOcclusion, DoesNotKnowWhatTheImageDoesNotShow) {
     // The same floor seen straight from above, where the wall is a line.
     const CameraDesc down{.name = "",
                           .position = {0, 3, 0},
@@ -112,7 +108,7 @@ TEST(ScreenOcclusion, DoesNotKnowWhatTheImageDoesNotShow) {
     EXPECT_EQ(atOrigin(occlusionOf(floorAndWall(mirror(kMaterialTwoSided), true), down)), 0.0f);
 }
 
-TEST(ScreenOcclusion, IsNothingOnAConvexObjectUpToAPixelsWidth) {
+TEST_P(ScreenOcclusion, IsNothingOnAConvexObjectUpToAPixelsWidth) {
     test::SceneBuilder builder;
     const vec3 positions[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     const uvec3 triangles[] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
@@ -123,20 +119,6 @@ TEST(ScreenOcclusion, IsNothingOnAConvexObjectUpToAPixelsWidth) {
                     {.name = "", .position = {2, 3, 4}, .target = {0, 0, 0}, .fov_y_degrees = 40});
     EXPECT_LE(std::ranges::max(occlusion), 0.05f);
     EXPECT_LE(std::accumulate(occlusion.begin(), occlusion.end(), 0.0f), 0.001f * 128 * 96);
-}
-
-class ScreenOcclusionVulkan : public VulkanTest {};
-
-TEST_F(ScreenOcclusionVulkan, IsWhatItIsOnTheHost) {
-    const Scene scene = floorAndWall(mirror(kMaterialTwoSided), true);
-    const std::vector<float> host = occlusionOf(scene, kBeside);
-    PassRun run(screenOcclusionPass(), device());
-    const std::vector<float> vulkan = occlusionOf(run, scene, kBeside);
-    // A ray that just passes may be seen otherwise: of 128 rays some at some pixels.
-    float sum = 0;
-    for (std::size_t pixel = 0; pixel < host.size(); ++pixel)
-        sum += std::abs(host[pixel] - vulkan[pixel]);
-    EXPECT_LT(sum / static_cast<float>(host.size()), 1e-4f);
 }
 
 } // namespace
