@@ -95,5 +95,61 @@ TEST_P(EnvironmentProbe, DoesNotSeeBackFaces) {
     EXPECT_NEAR(texel(mapsOf(scene), 0, 0, 8, 8).x, 1.0f, 1e-6f);
 }
 
+/// White, at y = -2 under a probe at the origin, and a lamp of 4 pi W/sr.
+Scene litFloor(test::SceneBuilder& builder, vec3 position) {
+    addWall(builder, vec3(0, -1, 0), 2.0f, vec3(0));
+    Scene scene = builder.finish();
+    scene.probes = {{vec3(0), kNone}};
+    Light lamp{};
+    lamp.kind = kLightPoint;
+    lamp.position = position;
+    lamp.intensity = vec3(4 * 3.14159265f);
+    scene.lights = {lamp};
+    return scene;
+}
+
+TEST_P(EnvironmentProbe, LightsWhatItSees) {
+    test::SceneBuilder builder;
+    // I cos / (pi d^2) with d = 2 / cos: cos^3. Texel (8, 8) looks 1/16 to two sides of the axis.
+    const vec4 below = texel(mapsOf(litFloor(builder, vec3(0))), 0, 3, 8, 8);
+    EXPECT_NEAR(below.x, std::pow(1 + 2.0f / 256, -1.5f), 1e-5f);
+}
+
+TEST_P(EnvironmentProbe, DarkensWhatShadowMapsSayIsInShadow) {
+    test::SceneBuilder builder;
+    // A lamp at y = 1.5 and a square of 0.8 at 0.5: its shadow on the floor is 3.5 times as wide.
+    const vec3 positions[] = {
+        {-0.4f, 0.5f, 0.4f}, {0.4f, 0.5f, 0.4f}, {0.4f, 0.5f, -0.4f}, {-0.4f, 0.5f, -0.4f}};
+    const uvec3 triangles[] = {{0, 1, 2}, {0, 2, 3}};
+    builder.add(positions, triangles, builder.addMaterial(test::plainMaterial()));
+    const Scene scene = litFloor(builder, vec3(0, 1.5f, 0));
+    PassRun shadows = pass(shadowMapPass()), probe = pass(environmentProbePass());
+    shadows.scene(scene).param("size", 256u).execute();
+    probe.scene(scene).param("size", kSize).input("shadow_maps", shadows.value("maps")).execute();
+    const std::vector<vec4> maps = probe.output<vec4>("maps"), all_lit = mapsOf(scene);
+    EXPECT_EQ(texel(maps, 0, 3, 8, 8).x, 0.0f);
+    EXPECT_GT(texel(all_lit, 0, 3, 8, 8).x, 0.0f) << "without maps";
+    const vec4 beside = texel(maps, 0, 3, 0, 8); // at 1.9 m
+    EXPECT_GT(beside.x, 0.0f);
+    EXPECT_EQ(beside.x, texel(all_lit, 0, 3, 0, 8).x);
+}
+
+TEST_P(EnvironmentProbe, SeesTheSkyInMirrors) {
+    test::SceneBuilder builder;
+    Material mirror = test::plainMaterial(kMaterialMirror | kMaterialTwoSided);
+    mirror.base_color = vec3(0); // nothing but the reflection
+    mirror.f0 = vec3(1);
+    const vec3 positions[] = {{2, -8, 8}, {2, -8, -8}, {2, 8, -8}, {2, 8, 8}};
+    const uvec3 triangles[] = {{0, 2, 1}, {0, 3, 2}};
+    builder.add(positions, triangles, builder.addMaterial(mirror));
+    Scene scene = builder.finish();
+    scene.probes = {{vec3(0), kNone}};
+    const vec3 sky(0.25f, 0.5f, 1.0f);
+    scene.environment = {.zenith = sky, .horizon = sky, .ground = sky, .ambient = vec3(0)};
+    const vec4 seen = texel(mapsOf(scene), 0, 0, 8, 8);
+    EXPECT_LT(glm::distance(vec3(seen), sky), 1e-6f);
+    EXPECT_NEAR(seen.w, 2.0f * std::sqrt(1 + 2.0f / 256), 1e-5f) << "the mirror's distance";
+}
+
 } // namespace
 } // namespace hone
