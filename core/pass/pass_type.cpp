@@ -69,13 +69,14 @@ PassType& PassType::out(std::string port, const PortType& type, std::string port
                         SizeRule size) {
     HONE_ASSERT(size != nullptr || type.shape == Shape::kPlane,
                 "an output that is no plane needs a size rule: " + port);
-    outputs.push_back({std::move(port), type, std::move(port_doc), "", size});
+    outputs.push_back({std::move(port), type, std::move(port_doc), "", std::move(size)});
     return *this;
 }
 
 PassType& PassType::outInPlace(std::string port, const PortType& type, std::string input,
                                std::string port_doc, SizeRule size) {
-    outputs.push_back({std::move(port), type, std::move(port_doc), std::move(input), size});
+    outputs.push_back(
+        {std::move(port), type, std::move(port_doc), std::move(input), std::move(size)});
     return *this;
 }
 

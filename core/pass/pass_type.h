@@ -33,7 +33,7 @@ struct SizeQuery {
     /// Capacity in elements of the named input (its edges' sum where variadic); 0 when unconnected.
     std::function<std::size_t(std::string_view)> input;
 };
-using SizeRule = std::size_t (*)(const SizeQuery&);
+using SizeRule = std::function<std::size_t(const SizeQuery&)>;
 
 struct OutPort {
     std::string name;
