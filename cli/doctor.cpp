@@ -83,9 +83,14 @@ int doctor(const DoctorArguments& arguments, const Console& console) {
     }
     for (const Plugin& plugin : session.plugins()) {
         const PluginInfo& info = plugin.info();
+        std::string offers;
+        for (const PluginInfo::Backend& backend : info.trace_backends)
+            offers += (offers.empty() ? "trace backend " : ", trace backend ") + backend.name;
+        for (const std::string& pass : info.passes)
+            offers += (offers.empty() ? "pass " : ", pass ") + pass;
         say("plug-in", true,
             info.name + " " + info.version + " (" + info.license + ", built by " + info.build +
-                ") from " + printable(info.file) + ": " + info.doc,
+                ") from " + printable(info.file) + ": " + info.doc + " Offers " + offers,
             "");
     }
     for (const std::string& problem : session.pluginProblems())

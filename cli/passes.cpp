@@ -59,12 +59,16 @@ Json describe(const PassType& type, const Session& session) {
                           {"doc", decl.doc}});
     for (Promise promise : type.promised)
         promises.push_back(describe(promise));
-    return {{"name", type.name},  {"doc", type.doc},  {"inputs", inputs},
+    return {{"name", type.name},  {"doc", type.doc},  {"plugin", type.plugin}, {"inputs", inputs},
             {"outputs", outputs}, {"params", params}, {"promises", promises}};
 }
 
+std::string broughtBy(const PassType& type) {
+    return type.plugin.empty() ? "" : " (plug-in " + type.plugin + ")";
+}
+
 void printManual(const PassType& type, const Session& session, std::ostream& out) {
-    out << type.name << " - " << type.doc << "\n";
+    out << type.name << " - " << type.doc << broughtBy(type) << "\n";
     const auto line = [&](const std::string& what, std::string_view kind, const std::string& doc) {
         out << "    " << std::left << std::setw(18) << what << " " << std::setw(18) << kind << " "
             << doc << "\n";
@@ -101,7 +105,8 @@ int passes(const PassesArguments& arguments, const Console& console) {
         for (const PassType& type : session.passes().all()) {
             all.push_back(describe(type, session));
             if (!arguments.json)
-                console.out << std::left << std::setw(22) << type.name << " " << type.doc << "\n";
+                console.out << std::left << std::setw(22) << type.name << " " << type.doc
+                            << broughtBy(type) << "\n";
         }
         if (arguments.json)
             print(console.out, {{"passes", all}});

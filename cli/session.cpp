@@ -28,7 +28,7 @@ Session::Session(std::span<const std::string> plugins) {
         search.folders = foldersOfVariable("HONE_PLUGIN_PATH", folders, plugin_problems_);
     if (std::filesystem::path installed = installedPlugins(); !installed.empty())
         search.folders.push_back(std::move(installed));
-    plugins_ = loadPlugins(search, trace_backends_, hostParallelFor, plugin_problems_);
+    plugins_ = loadPlugins(search, passes_, trace_backends_, hostParallelFor, plugin_problems_);
     for (const std::string& problem : plugin_problems_)
         logger().warn("{}", problem);
 }

@@ -10,7 +10,9 @@ install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
 
 # find_package(hone) gives hone::plugin: the headers that a plug-in needs, and nothing to link. It works with an
 # installed tree and with this build tree (-Dhone_DIR=build/release/cmake).
-install(FILES core/plugin/hone_plugin.h core/plugin/hone_plugin.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hone)
+install(FILES core/plugin/hone_plugin.h core/plugin/hone_plugin.hpp
+              core/plugin/hone_pass.h core/plugin/hone_pass.hpp core/plugin/hone_pass_run.hpp
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hone)
 install(TARGETS hone_plugin EXPORT hone-targets)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/hone)
 install(EXPORT hone-targets NAMESPACE hone:: DESTINATION ${package})

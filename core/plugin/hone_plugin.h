@@ -4,8 +4,8 @@
  * compiler works with a hone built by another. In C++, hone_plugin.hpp on top of it is shorter.
  *
  * A plug-in is a shared library that exports one function, hone_plugin_entry, which returns static
- * tables: what the plug-in is called and which trace backends it offers. hone checks the tables and
- * calls the functions in them.
+ * tables: what the plug-in is called and which trace backends and passes (hone_pass.h) it offers.
+ * hone checks the tables and calls the functions in them.
  *
  * Rules for both sides
  * - Nothing throws across the border. Functions that can fail return a hone_status and write the
@@ -29,7 +29,7 @@ extern "C" {
 
 #define HONE_PLUGIN_MAGIC 0x454e4f48u /* "HONE" */
 #define HONE_PLUGIN_ABI_MAJOR 1u
-#define HONE_PLUGIN_ABI_MINOR 0u
+#define HONE_PLUGIN_ABI_MINOR 1u /* 1: passes */
 
 /* "None": no texture, no hit. */
 #define HONE_NONE 0xffffffffu
@@ -47,6 +47,7 @@ typedef int32_t hone_status;
 #define HONE_FAILED 1        /* anything without a number of its own */
 #define HONE_NO_DEVICE 2     /* what the backend runs on is not here, or was lost */
 #define HONE_OUT_OF_MEMORY 3 /* of the host or of a device */
+#define HONE_INTERRUPTED 4   /* a pass gave up because it was asked to (hone_run::is_due) */
 
 /* Why a call failed: written by the callee, only where it does not return HONE_OK. */
 typedef struct hone_error {
@@ -120,7 +121,8 @@ typedef struct hone_texture {
  * A scene's arrays, where hone has them: not copies. Indices in them are in range.
  *
  * From a backend's build() to its next build() or destroy(), the scene and its arrays stay where
- * they are; instances change, and only before update(). A backend may keep the pointer.
+ * they are; instances change, and only before update(). A backend may keep the pointer; a pass has
+ * it for one execute().
  */
 typedef struct hone_scene {
     uint32_t struct_size;
@@ -271,9 +273,12 @@ typedef struct hone_plugin {
     const hone_trace_backend* const* trace_backends;
     size_t trace_backend_count;
 
-    /* The place of passes, to be filled in a later minor version; NULL and 0 until then. */
-    const void* const* passes;
+    const struct hone_pass_type* const* passes; /* hone_pass.h; NULL and 0 before 1.1 */
     size_t pass_count;
+
+    /* Since 1.1: types of ports that hone does not know. */
+    const struct hone_port_type* const* port_types;
+    size_t port_type_count;
 } hone_plugin;
 
 /* The compiler, for hone_plugin::build. */

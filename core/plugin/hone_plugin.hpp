@@ -25,7 +25,7 @@
 #ifndef HONE_PLUGIN_HPP
 #define HONE_PLUGIN_HPP
 
-// Not rooted: plug-ins have this pair of headers alone.
+// Not rooted: plug-ins have these headers alone.
 #include "hone_plugin.h"
 
 #include <array>
@@ -52,14 +52,14 @@ struct NoDevice : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// What a plug-in of one trace backend says of itself.
+/// What a plug-in says of itself.
 struct About {
-    const char* name; ///< a-z, 0-9, _ and ., a letter first: what graphs call the backend
+    const char* name; ///< a-z, 0-9, _ and ., a letter first; graphs call its trace backend so, too
     const char* version;
     const char* license;           ///< SPDX expression
     const char* doc;               ///< one sentence
-    std::uint32_t flags = 0;       ///< HONE_TRACE_...
-    const char* runs_on = nullptr; ///< a device's name; null = the host
+    std::uint32_t flags = 0;       ///< of a trace backend: HONE_TRACE_...
+    const char* runs_on = nullptr; ///< its device's name; null = the host
 };
 
 /// What hone does for a tracer; a value, copied freely. From any thread.
@@ -123,6 +123,48 @@ private:
     return moves && ray.tmin <= ray.tmax && ray.tmax >= 0.0f;
 }
 
+namespace detail {
+
+inline hone_status report(hone_error* error, hone_status status, const char* reason) {
+    std::strncpy(error->text, reason, sizeof error->text - 1); // the rest is zeroed
+    error->text[sizeof error->text - 1] = '\0';
+    return status;
+}
+
+/// Runs what may throw and turns it into a status.
+template <class Function>
+hone_status guarded(hone_error* error, const Function& function) noexcept {
+    try {
+        function();
+        return HONE_OK;
+    } catch (const NoDevice& problem) {
+        return report(error, HONE_NO_DEVICE, problem.what());
+    } catch (const std::bad_alloc&) {
+        return report(error, HONE_OUT_OF_MEMORY, "out of memory");
+    } catch (const std::exception& problem) {
+        return report(error, HONE_FAILED, problem.what());
+    } catch (...) {
+        return report(error, HONE_FAILED, "it threw something that is no std::exception");
+    }
+}
+
+/// What a plug-in says of itself, without what it offers.
+inline hone_plugin describe(const About& about) {
+    hone_plugin plugin{};
+    plugin.magic = HONE_PLUGIN_MAGIC;
+    plugin.struct_size = sizeof plugin;
+    plugin.abi_major = HONE_PLUGIN_ABI_MAJOR;
+    plugin.abi_minor = HONE_PLUGIN_ABI_MINOR;
+    plugin.build = HONE_PLUGIN_BUILD;
+    plugin.name = about.name;
+    plugin.version = about.version;
+    plugin.license = about.license;
+    plugin.doc = about.doc;
+    return plugin;
+}
+
+} // namespace detail
+
 /// The functions of hone_trace_backend over a class.
 template <class Tracer> class Border {
 public:
@@ -157,38 +199,16 @@ private:
     };
     static Made& made(hone_tracer* tracer) { return *reinterpret_cast<Made*>(tracer); }
 
-    static hone_status report(hone_error* error, hone_status status, const char* reason) {
-        std::strncpy(error->text, reason, sizeof error->text - 1); // the rest is zeroed
-        error->text[sizeof error->text - 1] = '\0';
-        return status;
-    }
-
-    /// Runs what may throw and turns it into a status.
-    template <class Function>
-    static hone_status guarded(hone_error* error, const Function& function) noexcept {
-        try {
-            function();
-            return HONE_OK;
-        } catch (const NoDevice& problem) {
-            return report(error, HONE_NO_DEVICE, problem.what());
-        } catch (const std::bad_alloc&) {
-            return report(error, HONE_OUT_OF_MEMORY, "out of memory");
-        } catch (const std::exception& problem) {
-            return report(error, HONE_FAILED, problem.what());
-        } catch (...) {
-            return report(error, HONE_FAILED, "it threw something that is no std::exception");
-        }
-    }
-
     static hone_status create(const hone_host* host, hone_tracer** tracer, hone_error* error) {
-        return guarded(error, [&] { *tracer = reinterpret_cast<hone_tracer*>(new Made(*host)); });
+        return detail::guarded(error,
+                               [&] { *tracer = reinterpret_cast<hone_tracer*>(new Made(*host)); });
     }
 
     static void destroy(hone_tracer* tracer) { delete &made(tracer); }
 
     static hone_status build(hone_tracer* tracer, const hone_scene* scene, hone_build_stats* stats,
                              hone_error* error) {
-        return guarded(error, [&] {
+        return detail::guarded(error, [&] {
             Tracer& own = made(tracer).tracer;
             if constexpr (requires { own.build(*scene, *stats); })
                 own.build(*scene, *stats);
@@ -200,7 +220,7 @@ private:
     static hone_status update(hone_tracer* tracer, const hone_scene* scene,
                               const std::uint32_t* moved, std::size_t moved_count,
                               hone_build_stats*, hone_error* error) {
-        return guarded(error, [&] {
+        return detail::guarded(error, [&] {
             if constexpr (kUpdates)
                 made(tracer).tracer.update(*scene, std::span(moved, moved_count));
         });
@@ -208,7 +228,7 @@ private:
 
     static hone_status closest(hone_tracer* tracer, const hone_ray* rays, hone_hit* hits,
                                std::size_t count, std::uint32_t flags, hone_error* error) {
-        return guarded(error, [&] {
+        return detail::guarded(error, [&] {
             Made& own = made(tracer);
             if constexpr (requires {
                               own.tracer.closest(std::span(rays, count), std::span(hits, count),
@@ -225,7 +245,7 @@ private:
 
     static hone_status occluded(hone_tracer* tracer, const hone_ray* rays, std::uint32_t* answers,
                                 std::size_t count, std::uint32_t flags, hone_error* error) {
-        return guarded(error, [&] {
+        return detail::guarded(error, [&] {
             Made& own = made(tracer);
             if constexpr (requires {
                               own.tracer.occluded(std::span(rays, count), std::span(answers, count),
@@ -243,16 +263,8 @@ private:
 
 /// The tables of a plug-in that offers one trace backend. Must not move.
 template <class Tracer> struct Tables {
-    explicit Tables(const About& about) : backend(Border<Tracer>::table(about)) {
-        plugin.magic = HONE_PLUGIN_MAGIC;
-        plugin.struct_size = sizeof plugin;
-        plugin.abi_major = HONE_PLUGIN_ABI_MAJOR;
-        plugin.abi_minor = HONE_PLUGIN_ABI_MINOR;
-        plugin.build = HONE_PLUGIN_BUILD;
-        plugin.name = about.name;
-        plugin.version = about.version;
-        plugin.license = about.license;
-        plugin.doc = about.doc;
+    explicit Tables(const About& about)
+        : backend(Border<Tracer>::table(about)), plugin(detail::describe(about)) {
         plugin.trace_backends = &list;
         plugin.trace_backend_count = 1;
     }
@@ -261,7 +273,7 @@ template <class Tracer> struct Tables {
 
     hone_trace_backend backend;
     const hone_trace_backend* list = &backend;
-    hone_plugin plugin{};
+    hone_plugin plugin;
 };
 
 } // namespace hone::plugin

@@ -4,11 +4,10 @@
 #include "hone/core/error.h"
 #include "hone/core/plugin/elf_file.h"
 #include "hone/core/plugin/plugin_backend.h"
+#include "hone/core/plugin/plugin_pass.h"
+#include "hone/core/plugin/plugin_pass_tables.h"
+#include "hone/core/plugin/plugin_tables.h"
 #include "hone/core/printable.h"
-
-#include <algorithm>
-#include <cstring>
-#include <string_view>
 
 #include <dlfcn.h>
 
@@ -17,14 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestName = 64;
-constexpr std::size_t kLongestText = 1024;
 constexpr std::size_t kMostBackends = 256;
-
-/// Why the plug-in is refused; the caller adds which plug-in.
-struct Refusal : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 bool anybodyMayWrite(const fs::path& path) {
     return (fs::status(path).permissions() & fs::perms::others_write) != fs::perms::none;
@@ -41,46 +33,6 @@ void checkFile(const fs::path& file) {
         throw Refusal("anybody may write to its folder: chmod o-w makes it safe to load from");
     if (const std::string why = whyNotLoadable(file); !why.empty())
         throw Refusal(why);
-}
-
-/// A text of a table. Throws Refusal where there is none, or it is empty, long or not printable.
-std::string textOf(const char* text, const std::string& what) {
-    if (text == nullptr)
-        throw Refusal(what + " is missing (NULL)");
-    const std::string_view seen(text, strnlen(text, kLongestText + 1));
-    if (seen.empty())
-        throw Refusal(what + " is empty");
-    if (seen.size() > kLongestText)
-        throw Refusal(what + " is longer than " + std::to_string(kLongestText) + " bytes");
-    if (std::ranges::any_of(seen,
-                            [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }))
-        throw Refusal(what + " has control bytes: \"" + printable(seen) + "\"");
-    return std::string(seen);
-}
-
-std::string nameOf(const char* text, const std::string& what) {
-    std::string name = textOf(text, what);
-    const auto is_allowed = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
-    };
-    if (name.size() > kLongestName || name.front() < 'a' || name.front() > 'z' ||
-        !std::ranges::all_of(name, is_allowed) || name == "auto")
-        throw Refusal(what + " \"" + printable(name) +
-                      "\" is no name: use a-z, 0-9, _ and ., a letter first, at most " +
-                      std::to_string(kLongestName) + " bytes, not \"auto\"");
-    return name;
-}
-
-/// The table as this hone knows it: members that the plug-in does not have are 0, members that hone
-/// does not know are left out. Every version has what 1.0 has.
-template <class Table>
-Table copyTable(const Table& table, std::size_t bytes_of_1_0, const std::string& what) {
-    if (table.struct_size < bytes_of_1_0)
-        throw Refusal(what + " is short: struct_size is " + std::to_string(table.struct_size) +
-                      ", at least " + std::to_string(bytes_of_1_0) + " is expected");
-    Table copy{};
-    std::memcpy(&copy, &table, std::min<std::size_t>(table.struct_size, sizeof copy));
-    return copy;
 }
 
 std::string abi(std::uint32_t major, std::uint32_t minor) {
@@ -111,17 +63,10 @@ const hone_plugin& shakeHands(hone_plugin_entry_function entry) {
     return *plugin;
 }
 
-template <class Function> void require(Function function, const std::string& what) {
-    if (function == nullptr)
-        throw Refusal(what + " is missing (NULL)");
-}
-
-void readBackend(const hone_trace_backend* offered, std::size_t index, PluginLibrary& library) {
+void readBackend(const hone_trace_backend& offered, std::size_t index, PluginLibrary& library) {
     std::string what = "trace backend " + std::to_string(index);
-    if (offered == nullptr)
-        throw Refusal("its " + what + " is missing (NULL)");
     const hone_trace_backend table =
-        copyTable(*offered, sizeof(hone_trace_backend), "the table of its " + what);
+        copyTable(offered, sizeof(hone_trace_backend), "the table of its " + what);
     PluginInfo::Backend info;
     info.name = nameOf(table.name, "the name of its " + what);
     what = "its trace backend \"" + info.name + "\"";
@@ -137,8 +82,7 @@ void readBackend(const hone_trace_backend* offered, std::size_t index, PluginLib
     constexpr std::uint32_t kKnownFlags = HONE_TRACE_ALWAYS_EXACT | HONE_TRACE_SETTLES_TIES |
                                           HONE_TRACE_UPDATES | HONE_TRACE_REFERENCE |
                                           HONE_TRACE_NO_MASKS;
-    if (library.info.abi_minor <= HONE_PLUGIN_ABI_MINOR && (table.flags & ~kKnownFlags) != 0)
-        throw Refusal(what + ": flags has bits that mean nothing");
+    checkFlags(table.flags, kKnownFlags, library.info.abi_minor, what);
     for (const PluginInfo::Backend& other : library.info.trace_backends)
         if (other.name == info.name)
             throw Refusal("it offers two trace backends called \"" + info.name + "\"");
@@ -148,7 +92,7 @@ void readBackend(const hone_trace_backend* offered, std::size_t index, PluginLib
 
 /// Copies and checks everything that the tables say.
 void readTables(const hone_plugin& offered, PluginLibrary& library) {
-    const hone_plugin table = copyTable(offered, sizeof(hone_plugin), "its table");
+    const hone_plugin table = copyTable(offered, offsetof(hone_plugin, port_types), "its table");
     PluginInfo& info = library.info;
     info.name = nameOf(table.name, "its name");
     info.version = textOf(table.version, "its version");
@@ -156,19 +100,17 @@ void readTables(const hone_plugin& offered, PluginLibrary& library) {
     info.doc = textOf(table.doc, "its doc");
     info.build = textOf(table.build, "its build");
     info.abi_minor = table.abi_minor;
-    // A newer minor version has passes; what else it offers still works.
-    if (table.pass_count > 0 && table.abi_minor <= HONE_PLUGIN_ABI_MINOR)
-        throw Refusal("it offers passes, which plug-in ABI " +
-                      abi(HONE_PLUGIN_ABI_MAJOR, table.abi_minor) + " does not have");
-    if (table.trace_backend_count == 0)
-        throw Refusal("it offers no trace backend");
-    if (table.trace_backend_count > kMostBackends)
-        throw Refusal("it says that it offers " + std::to_string(table.trace_backend_count) +
-                      " trace backends; at most " + std::to_string(kMostBackends) +
-                      " are believed");
-    require(table.trace_backends, "its list of trace backends");
-    for (std::size_t i = 0; i < table.trace_backend_count; ++i)
-        readBackend(table.trace_backends[i], i, library);
+    if (table.abi_minor == 0 && table.pass_count > 0)
+        throw Refusal("it offers passes, which plug-in ABI " + abi(HONE_PLUGIN_ABI_MAJOR, 0) +
+                      " does not have");
+    if (table.trace_backend_count == 0 && table.pass_count == 0)
+        throw Refusal("it offers neither a trace backend nor a pass");
+    readList(table.trace_backends, table.trace_backend_count, kMostBackends,
+             "its list of trace backends", "its trace backend",
+             [&](const hone_trace_backend& backend, std::size_t i) {
+                 readBackend(backend, i, library);
+             });
+    readPasses(table, library);
 }
 
 std::shared_ptr<const PluginLibrary> load(const fs::path& file, ParallelFor parallel_for) {
@@ -204,15 +146,30 @@ Plugin::Plugin(const fs::path& file, ParallelFor parallel_for) {
     }
 }
 
-void Plugin::addTo(TraceBackendRegistry& registry) const {
+void Plugin::addTo(PassRegistry& passes, TraceBackendRegistry& backends) const {
+    const std::string who = "plug-in " + printable(info().file) + ": its ";
     for (const PluginInfo::Backend& backend : info().trace_backends)
-        if (registry.contains(backend.name))
-            throw PluginError("plug-in " + printable(info().file) + ": its trace backend \"" +
-                              backend.name + "\" has the name of another that is already there");
+        if (backends.contains(backend.name))
+            throw PluginError(who + "trace backend \"" + backend.name +
+                              "\" has the name of another that is already there");
+    for (const std::string& name : info().passes)
+        if (const PassType* other = passes.find(name))
+            throw PluginError(who + "pass \"" + name + "\" has the name of one of " +
+                              (other->plugin.empty() ? "hone's" : "plug-in " + other->plugin));
+    for (const PortType& known : graphTypes(passes))
+        for (const PluginPortType& brought : library_->port_types)
+            if (brought.type == known &&
+                (brought.type.shape != known.shape || brought.type.stride != known.stride ||
+                 brought.type.format != known.format))
+                throw PluginError(who + "port type \"" + brought.name +
+                                  "\" has the name of another whose elements lie otherwise");
+
     for (std::size_t i = 0; i < info().trace_backends.size(); ++i)
-        registry.add(
+        backends.add(
             info().trace_backends[i].name, info().trace_backends[i].doc,
             [library = library_, i](const Devices&) { return makePluginBackend(library, i); });
+    for (std::size_t i = 0; i < info().passes.size(); ++i)
+        passes.add(makePluginPassType(library_, i));
 }
 
 } // namespace hone

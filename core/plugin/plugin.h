@@ -8,6 +8,7 @@
 
 namespace hone {
 
+class PassRegistry;
 class TraceBackendRegistry;
 
 /// A loaded plug-in (hone_plugin.h says what that is). Its code stays while this, a registry that
@@ -22,8 +23,9 @@ public:
 
     [[nodiscard]] const PluginInfo& info() const { return library_->info; }
 
-    /// Adds its trace backends. Throws PluginError, and adds none, if a name is taken.
-    void addTo(TraceBackendRegistry& registry) const;
+    /// Adds its passes and trace backends. Throws PluginError, and adds none, if a name is taken,
+    /// or a port type has the name of another that is laid out otherwise.
+    void addTo(PassRegistry& passes, TraceBackendRegistry& backends) const;
 
 private:
     std::shared_ptr<const PluginLibrary> library_;

@@ -1,96 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/core/plugin/plugin_backend.h"
 
-#include "hone/core/error.h"
 #include "hone/core/log.h"
-#include "hone/core/plugin/same_records.h"
-#include "hone/core/printable.h"
-#include "hone/core/scene/host_surface.h"
+#include "hone/core/plugin/plugin_host.h"
 
 #include <chrono>
-#include <exception>
-#include <optional>
 
 namespace hone {
 namespace {
-
-/// What hone_scene::hone points to.
-struct SceneAccess {
-    explicit SceneAccess(const Scene& the_scene) : scene(&the_scene), surface(the_scene) {}
-    const Scene* scene;
-    HostSurface surface;
-};
-
-const SceneAccess& accessOf(const hone_scene* scene) {
-    return *static_cast<const SceneAccess*>(scene->hone);
-}
-
-// ---- hone_host's functions. Plug-ins are C: nothing may leave these but by return. ----
-
-void hostLog(const hone_host*, std::int32_t level, const char* text) noexcept {
-    const std::string shown = printable(text != nullptr ? text : "");
-    if (level >= HONE_LOG_WARN)
-        logger().warn("{}", shown);
-    else if (level == HONE_LOG_INFO)
-        logger().info("{}", shown);
-    else
-        logger().debug("{}", shown);
-}
-
-std::int32_t hostIsSolid(const hone_scene* scene, const hone_ray* ray, hone_hit hit) noexcept {
-    return accessOf(scene).surface.isSolid(reinterpret_cast<const Ray&>(*ray),
-                                           {hit.instance, hit.primitive})
-               ? 1
-               : 0;
-}
-
-void hostWorldPosition(const hone_scene* scene, std::uint32_t instance, std::uint32_t vertex,
-                       float position[3]) noexcept {
-    const SceneAccess& access = accessOf(scene);
-    const vec3 placed = access.surface.worldPosition(access.scene->instances[instance], vertex);
-    for (int axis = 0; axis < 3; ++axis)
-        position[axis] = placed[axis];
-}
-
-void hostParallelFor(const hone_host* host, std::size_t count, std::size_t grain,
-                     void (*body)(void*, std::size_t, std::size_t), void* context) noexcept {
-    static_cast<const PluginLibrary*>(host->hone)->parallel_for(count, grain, body, context);
-}
-
-hone_host makeHost(const PluginLibrary& library) {
-    return {.struct_size = sizeof(hone_host),
-            .abi_major = HONE_PLUGIN_ABI_MAJOR,
-            .abi_minor = HONE_PLUGIN_ABI_MINOR,
-            .reserved = 0,
-            .hone = const_cast<PluginLibrary*>(&library), // only read, by hostParallelFor
-            .log = hostLog,
-            .is_solid = hostIsSolid,
-            .world_position = hostWorldPosition,
-            .parallel_for = hostParallelFor};
-}
-
-/// The scene's own arrays, seen through the border's types (same_records.h).
-hone_scene makeScene(const Scene& scene, const SceneAccess& access) {
-    return {.struct_size = sizeof(hone_scene),
-            .reserved = 0,
-            .hone = &access,
-            .positions = reinterpret_cast<const float(*)[3]>(scene.positions.data()),
-            .normals = reinterpret_cast<const float(*)[3]>(scene.normals.data()),
-            .uvs = reinterpret_cast<const float(*)[2]>(scene.uvs.data()),
-            .position_count = scene.positions.size(),
-            .triangles = reinterpret_cast<const std::uint32_t(*)[3]>(scene.triangles.data()),
-            .triangle_count = scene.triangles.size(),
-            .meshes = reinterpret_cast<const hone_mesh*>(scene.meshes.data()),
-            .mesh_count = scene.meshes.size(),
-            .instances = reinterpret_cast<const hone_instance*>(scene.instances.data()),
-            .instance_count = scene.instances.size(),
-            .materials = reinterpret_cast<const hone_material*>(scene.materials.data()),
-            .material_count = scene.materials.size(),
-            .textures = reinterpret_cast<const hone_texture*>(scene.textures.data()),
-            .texture_count = scene.textures.size(),
-            .texels = scene.texels.data(),
-            .texel_count = scene.texels.size()};
-}
 
 std::uint32_t queryFlags(Coherence coherence, const TraceOptions& options) {
     return (coherence == Coherence::kCoherent ? HONE_QUERY_COHERENT : 0u) |
@@ -170,7 +87,7 @@ public:
                                   queryFlags(coherence, options), error);
         });
         for (std::size_t i = 0; i < hits.size(); ++i)
-            if (!isInScene(hits[i]))
+            if (!isInScene(*access_->scene, hits[i]))
                 fail("closest answered ray " + std::to_string(i) + " with instance " +
                      std::to_string(hits[i].instance) + ", primitive " +
                      std::to_string(hits[i].primitive) + ", which the scene does not have");
@@ -203,32 +120,12 @@ private:
         throw PluginError(who() + ": " + what);
     }
 
-    /// Calls into the plug-in and turns what it ends with into an exception.
-    template <class Function> void call(const std::string& name, Function&& function) const {
-        hone_error error{};
-        hone_status status = HONE_OK;
-        try {
-            status = function(&error);
-        } catch (const std::exception& problem) {
-            fail(name + " threw an exception: " + printable(problem.what()));
-        } catch (...) {
-            fail(name + " threw something that is no std::exception");
-        }
-        if (status == HONE_OK)
-            return;
-        error.text[sizeof error.text - 1] = '\0';
-        const std::string reason =
-            error.text[0] != '\0' ? printable(error.text) : "it gave no reason";
-        const std::string text = who() + ": " + name + " failed: " + reason;
-        if (status == HONE_NO_DEVICE)
-            throw DeviceError(text);
-        if (status == HONE_OUT_OF_MEMORY)
-            throw OutOfMemory(text);
-        throw PluginError(text);
+    template <class Function> void call(const char* name, const Function& function) const {
+        callPlugin([this] { return who(); }, name, function);
     }
 
     template <class Function>
-    BuildStats timed(const std::string& name, const Scene& scene, Function&& function) {
+    BuildStats timed(const char* name, const Scene& scene, const Function& function) {
         hone_build_stats made{};
         made.struct_size = sizeof made;
         made.triangles = scene.instancedTriangles();
@@ -240,14 +137,6 @@ private:
                 .triangles = made.triangles,
                 .bytes = made.bytes,
                 .copied_bytes = made.copied_bytes};
-    }
-
-    bool isInScene(Hit hit) const {
-        if (hit.instance == kNone)
-            return hit.primitive == kNone;
-        const Scene& scene = *access_->scene;
-        return hit.instance < scene.instances.size() &&
-               hit.primitive < scene.meshes[scene.instances[hit.instance].mesh].triangle_count;
     }
 
     std::shared_ptr<const PluginLibrary> library_; // first: the code goes last

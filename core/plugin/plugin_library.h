@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hone/core/pass/pass_type.h"
+#include "hone/core/plugin/hone_pass.h"
 #include "hone/core/plugin/hone_plugin.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -20,6 +23,7 @@ struct PluginInfo {
         std::string name, doc, version, runs_on;
     };
     std::vector<Backend> trace_backends;
+    std::vector<std::string> passes; ///< their types' names
 };
 
 /// The threads that plug-ins may use: calls body(context, begin, end) for ranges of at most `grain`
@@ -28,8 +32,26 @@ using ParallelFor = void (*)(std::size_t count, std::size_t grain,
                              void (*body)(void* context, std::size_t begin, std::size_t end),
                              void* context);
 
-/// A plug-in's code and its checked tables. Shared by all who may still call it: the last one to go
-/// unloads it.
+/// A type of ports that a plug-in brings: the texts that its PortType points to.
+struct PluginPortType {
+    std::string name, doc, format, unit;
+    PortType type;
+};
+
+/// What is believed of one pass type.
+inline constexpr std::size_t kMostPluginPorts = 32; ///< inputs, outputs
+inline constexpr std::size_t kMostPluginParams = 64;
+
+/// A pass type as a plug-in's tables declare it.
+struct PluginPassType {
+    PassType type;          ///< without create and size rules, which keep the library (addTo)
+    hone_pass_type table{}; ///< its functions count
+    std::vector<std::size_t (*)(const hone_size_query*)> sizes; ///< by output; may be null
+    std::vector<std::string> counters;
+};
+
+/// A plug-in's code and its checked tables. Shared by all who may still call it or read its texts:
+/// the last one to go unloads it.
 struct PluginLibrary {
     PluginLibrary() = default;
     PluginLibrary(const PluginLibrary&) = delete;
@@ -39,6 +61,8 @@ struct PluginLibrary {
     void* handle = nullptr;
     PluginInfo info;
     std::vector<hone_trace_backend> trace_backends; ///< as info's; missing members are 0
+    std::deque<PluginPortType> port_types;          ///< their places stay
+    std::vector<PluginPassType> passes;             ///< as info's
     ParallelFor parallel_for = nullptr;
 };
 

@@ -35,8 +35,8 @@ std::vector<fs::path> librariesIn(const fs::path& folder) {
 
 class Loading {
 public:
-    Loading(TraceBackendRegistry& registry, ParallelFor parallel_for)
-        : registry_(registry), parallel_for_(parallel_for) {}
+    Loading(PassRegistry& passes, TraceBackendRegistry& backends, ParallelFor parallel_for)
+        : passes_(passes), backends_(backends), parallel_for_(parallel_for) {}
 
     /// Throws PluginError.
     void add(const fs::path& file) {
@@ -51,14 +51,15 @@ public:
         if (const auto other = std::ranges::find_if(plugins, has_name); other != plugins.end())
             throw PluginError("plug-in " + printable(info.file) + ": it is called \"" + info.name +
                               "\", as is " + printable(other->info().file));
-        plugin.addTo(registry_);
+        plugin.addTo(passes_, backends_);
         plugins.push_back(std::move(plugin));
     }
 
     std::vector<Plugin> plugins;
 
 private:
-    TraceBackendRegistry& registry_;
+    PassRegistry& passes_;
+    TraceBackendRegistry& backends_;
     ParallelFor parallel_for_;
 };
 
@@ -80,9 +81,10 @@ std::vector<fs::path> foldersOfVariable(std::string_view name, std::string_view 
     return folders;
 }
 
-std::vector<Plugin> loadPlugins(const PluginSearch& search, TraceBackendRegistry& registry,
-                                ParallelFor parallel_for, std::vector<std::string>& problems) {
-    Loading loading(registry, parallel_for);
+std::vector<Plugin> loadPlugins(const PluginSearch& search, PassRegistry& passes,
+                                TraceBackendRegistry& backends, ParallelFor parallel_for,
+                                std::vector<std::string>& problems) {
+    Loading loading(passes, backends, parallel_for);
     for (const fs::path& file : search.files)
         loading.add(file);
     for (const fs::path& folder : search.folders) {

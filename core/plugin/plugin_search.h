@@ -26,13 +26,14 @@ struct PluginSearch {
 foldersOfVariable(std::string_view name, std::string_view value,
                   std::vector<std::string>& problems);
 
-/// Loads plug-ins and adds their trace backends; a file that is met twice is loaded once, and of
-/// the plug-ins or backends of one name the first stays. Returns those that are in use.
+/// Loads plug-ins and adds their passes and trace backends; a file that is met twice is loaded
+/// once, and of the plug-ins, passes or backends of one name the first stays. Returns those that
+/// are in use.
 ///
 /// Throws PluginError where a named file does not load, or has the name of another. `problems`:
 /// each text says which plug-in was found and left out, and why.
-[[nodiscard]] std::vector<Plugin> loadPlugins(const PluginSearch& search,
-                                              TraceBackendRegistry& registry,
+[[nodiscard]] std::vector<Plugin> loadPlugins(const PluginSearch& search, PassRegistry& passes,
+                                              TraceBackendRegistry& backends,
                                               ParallelFor parallel_for,
                                               std::vector<std::string>& problems);
 

@@ -5,6 +5,7 @@
 // the border.
 #pragma once
 
+#include "hone/core/plugin/hone_pass.h"
 #include "hone/core/plugin/hone_plugin.h"
 #include "hone/core/scene/scene.h"
 #include "hone/core/trace/ray.glsl.h"
@@ -59,6 +60,16 @@ HONE_SAME_MEMBER(Texture, hone_texture, height);
 HONE_SAME_MEMBER(Texture, hone_texture, levels);
 HONE_SAME_MEMBER(Texture, hone_texture, wrap_u);
 HONE_SAME_MEMBER(Texture, hone_texture, wrap_v);
+
+static_assert(sizeof(Camera) == sizeof(hone_camera));
+HONE_SAME_MEMBER(Camera, hone_camera, position);
+HONE_SAME_MEMBER(Camera, hone_camera, forward);
+HONE_SAME_MEMBER(Camera, hone_camera, right);
+HONE_SAME_MEMBER(Camera, hone_camera, up);
+HONE_SAME_MEMBER(Camera, hone_camera, tan_half_fov_y);
+HONE_SAME_MEMBER(Camera, hone_camera, near);
+HONE_SAME_MEMBER(Camera, hone_camera, lens_radius);
+HONE_SAME_MEMBER(Camera, hone_camera, focus);
 
 #undef HONE_SAME_MEMBER
 

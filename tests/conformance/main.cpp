@@ -64,8 +64,9 @@ int main(int argc, char** argv) {
                      .memory = [] { return &sharedVulkanDevice(); }});
     // The example of a plug-in.
     test::addTracer({.name = "custom", .make = [] {
+                         PassRegistry passes;
                          TraceBackendRegistry registry;
-                         Plugin(HONE_CUSTOM_BACKEND, hostParallelFor).addTo(registry);
+                         Plugin(HONE_CUSTOM_BACKEND, hostParallelFor).addTo(passes, registry);
                          return registry.create("custom", {});
                      }});
     testing::InitGoogleTest(&argc, argv);

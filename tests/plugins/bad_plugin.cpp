@@ -4,6 +4,7 @@
 // in tests/support/bad_plugins.cpp.
 #include "hone/core/plugin/hone_plugin.h"
 
+#include <cstddef>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -87,6 +88,8 @@ const hone_plugin* hone_plugin_entry(uint32_t, uint32_t) {
               list,
               1,
               nullptr,
+              0,
+              nullptr,
               0};
 
     if (is("declines"))
@@ -104,13 +107,11 @@ const hone_plugin* hone_plugin_entry(uint32_t, uint32_t) {
     if (is("newer_minor")) {
         plugin.abi_minor = HONE_PLUGIN_ABI_MINOR + 1;
         plugin.struct_size = sizeof plugin_table;
-        plugin.passes = reinterpret_cast<const void* const*>(list);
-        plugin.pass_count = 1;
         backend.struct_size = sizeof backend_table;
         backend.flags = 1u << 31;
     }
     if (is("short_table"))
-        plugin.struct_size = sizeof plugin - 1;
+        plugin.struct_size = offsetof(hone_plugin, port_types) - 1;
     if (is("empty_table"))
         plugin.struct_size = 0;
     if (is("short_backend_table"))
@@ -159,7 +160,15 @@ const hone_plugin* hone_plugin_entry(uint32_t, uint32_t) {
         backend.occluded = nullptr;
     if (is("unknown_flags"))
         backend.flags = 1u << 31;
-    if (is("passes"))
+    if (is("passes")) {
+        plugin.abi_minor = 0;
         plugin.pass_count = 1;
+    }
+    if (is("older_minor")) {
+        plugin.abi_minor = 0;
+        plugin.struct_size = offsetof(hone_plugin, port_types);
+        plugin.port_types = reinterpret_cast<const hone_port_type* const*>(list); // not its own
+        plugin.port_type_count = 1;
+    }
     return &plugin;
 }

@@ -140,6 +140,8 @@ const hone_plugin* hone_plugin_entry(uint32_t, uint32_t) {
                                     list.data(),
                                     list.size(),
                                     nullptr,
+                                    0,
+                                    nullptr,
                                     0};
     return &plugin;
 }

@@ -127,6 +127,8 @@ static const hone_plugin plugin = {HONE_PLUGIN_MAGIC,
                                    backends,
                                    1,
                                    NULL,
+                                   0,
+                                   NULL,
                                    0};
 
 const hone_plugin* hone_plugin_entry(uint32_t abi_major, uint32_t abi_minor) {

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/tests/support/bad_plugins.h"
 
+#include <cstdlib>
+
 namespace hone::test {
 
 std::span<const BadPlugin> badPlugins() {
     static constexpr BadPlugin kAll[] = {
         {"no_entry", "exports no hone_plugin_entry"},
         {"undefined", "undefined symbol: hone_nobody_defines_this"},
-        {"declines", "declines to work with this hone (plug-in ABI 1.0)"},
+        {"declines", "declines to work with this hone (plug-in ABI 1.1)"},
         {"throws", "its entry threw an exception: the dog ate my ?[31mlicence"},
         {"throws_a_number", "its entry threw something that is no std::exception"},
         {"wrong_magic", "wrong magic number"},
-        {"newer_major", "speaks plug-in ABI 2.0, this hone 1.0: it needs a newer hone"},
+        {"newer_major", "speaks plug-in ABI 2.1, this hone 1.1: it needs a newer hone"},
         {"older_major",
-         "speaks plug-in ABI 0.0, this hone 1.0: build it anew with this hone's headers"},
+         "speaks plug-in ABI 0.1, this hone 1.1: build it anew with this hone's headers"},
         {"short_table", "its table is short: struct_size is 87, at least 88 is expected"},
         {"empty_table", "its table is short: struct_size is 0"},
         {"short_backend_table", "the table of its trace backend 0 is short: struct_size is 80"},
@@ -28,10 +30,11 @@ std::span<const BadPlugin> badPlugins() {
         {"called_auto", "the name of its trace backend 0 \"auto\" is no name"},
         {"name_taken", "its trace backend \"embree\" has the name of another"},
         {"two_of_a_name", "offers two trace backends called \"bad\""},
-        {"offers_nothing", "offers no trace backend"},
+        {"offers_nothing", "offers neither a trace backend nor a pass"},
         {"no_list", "its list of trace backends is missing (NULL)"},
         {"no_backend", "its trace backend 0 is missing (NULL)"},
-        {"a_billion_backends", "says that it offers 1000000000 trace backends"},
+        {"a_billion_backends",
+         "its list of trace backends has 1000000000 entries; at most 256 are believed"},
         {"no_create", "its trace backend \"bad\": create is missing (NULL)"},
         {"no_destroy", "its trace backend \"bad\": destroy is missing (NULL)"},
         {"no_build", "its trace backend \"bad\": build is missing (NULL)"},
@@ -41,6 +44,102 @@ std::span<const BadPlugin> badPlugins() {
         {"passes", "offers passes, which plug-in ABI 1.0 does not have"},
     };
     return kAll;
+}
+
+std::span<const BadPlugin> badPasses() {
+    static constexpr BadPlugin kAll[] = {
+        {"a_billion_passes", "its list of passes has 1000000000 entries; at most 256 are believed"},
+        {"no_list_of_passes", "its list of passes is missing (NULL)"},
+        {"no_pass", "its pass 0 is missing (NULL)"},
+        {"two_passes_of_a_name", "it offers two passes called \"bad.pass\""},
+        {"second_pass_is_bad", "its pass \"bad.second\": execute is missing (NULL)"},
+        {"nothing", "it offers neither a trace backend nor a pass"},
+        {"short_pass",
+         "the table of its pass 0 is short: struct_size is 104, at least 112 is expected"},
+        {"pass_without_name", "the name of its pass 0 is missing (NULL)"},
+        {"pass_name_with_control_bytes", "the name of its pass 0 has control bytes: \"bad?[2J\""},
+        {"pass_name_with_capitals", "the name of its pass 0 \"Bad\" is no name: use a-z"},
+        {"pass_called_glsl", "its pass cannot be called \"glsl\""},
+        {"pass_name_taken", "its pass \"sort\" has the name of one of hone's"},
+        {"pass_without_doc", "its pass \"bad.pass\": doc is empty"},
+        {"pass_with_unknown_flags", "its pass \"bad.pass\": flags has bits that mean nothing"},
+        {"no_execute", "its pass \"bad.pass\": execute is missing (NULL)"},
+        {"no_destroy", "its pass \"bad.pass\": destroy is missing (NULL), but not create"},
+        {"no_create", "its pass \"bad.pass\": create is missing (NULL), but not destroy"},
+        {"no_output", "its pass \"bad.pass\": it has no output"},
+        {"no_list_of_inputs", "its pass \"bad.pass\": its list of inputs is missing (NULL)"},
+        {"no_input", "its pass \"bad.pass\": its input 0 is missing (NULL)"},
+        {"a_million_inputs", "its list of inputs has 1000000 entries; at most 32 are believed"},
+        {"no_counter", "its pass \"bad.pass\": its counter 0 is missing (NULL)"},
+        {"counter_with_spaces", "its counter 0 \"all things\" is no name"},
+        {"short_port", "the table of its input 0 is short: struct_size is 8"},
+        {"port_name_with_dot",
+         "the name of its input 0 \"depth.of\" is no name: use a-z, 0-9 and _"},
+        {"port_without_doc", "input \"depth\": doc is missing (NULL)"},
+        {"two_inputs_of_a_name", "its pass \"bad.pass\" has two inputs called \"depth\""},
+        {"two_outputs_of_a_name", "its pass \"bad.pass\" has two outputs called \"result\""},
+        {"unknown_type", "input \"depth\": nobody knows type \"Depht\""},
+        {"wrong_stride", "input \"depth\": it takes an element for 8 bytes, but Depth has 4"},
+        {"zero_stride", "input \"depth\": it takes an element for 0 bytes, but Depth has 4"},
+        {"curve", "input \"curve\": plug-ins are given no Curve"},
+        {"output_of_a_scene",
+         "output \"scene\": a plug-in's pass makes planes, lists and records, no Scene"},
+        {"input_with_unknown_flags", "input \"depth\": flags has bits that mean nothing"},
+        {"optional_output", "output \"result\": flags has bits that mean nothing"},
+        {"input_with_size", "input \"depth\": only outputs have in_place_of and size"},
+        {"in_place_of_nothing", "output \"result\": it is in place of \"dept\", which is no input"},
+        {"in_place_of_another_type", "in place of \"depth\", which has type Depth"},
+        {"in_place_of_several", "in place of \"depth\", which takes several edges"},
+        {"in_place_twice", "output \"more\": it is in place of \"depth\", as is another output"},
+        {"list_without_size", "output \"result\": a list needs a size"},
+        {"hits_without_scene", "output \"result\": hits are those of a scene"},
+        {"parameters_of_a_single_edge", "only edges of HONE_PORT_VARIADIC inputs have parameters"},
+        {"edge_parameter_called_from", "an edge's parameter cannot be called \"from\""},
+        {"short_param", "the table of its parameter 1 is short: struct_size is 0"},
+        {"unknown_param_type", "parameter \"number\": type 4 is none"},
+        {"param_doc_with_control_bytes",
+         "parameter \"number\": doc has control bytes: \"?]0;pwned?\""},
+        {"two_params_of_a_name", "its pass \"bad.pass\" has two parameters called \"share\""},
+        {"range_upside_down", "parameter \"share\": min 2.000000 is greater than max 1.000000"},
+        {"range_of_nan", "parameter \"share\": min and max must be finite"},
+        {"default_outside", "parameter \"share\": its default 0.000000 is not in its range"},
+        {"default_of_nan", "parameter \"share\": its default nan is not a finite float"},
+        {"default_not_whole", "parameter \"number\": its default 1.500000 is not a whole number"},
+        {"default_negative", "parameter \"number\": its default -1.000000 is not a whole number"},
+        {"flag_of_two", "parameter \"flag\": its default 2.000000 is not 0 or 1"},
+        {"flag_with_range", "parameter \"flag\": only numbers have min and max"},
+        {"number_with_choices", "parameter \"number\": only an enum has choices"},
+        {"no_choices", "parameter \"mode\": an enum has 1 to 64 choices, not 0"},
+        {"no_list_of_choices", "parameter \"mode\": choices is missing (NULL)"},
+        {"choice_with_spaces", "parameter \"mode\": choice \"number one\" is none"},
+        {"two_choices_of_a_name", "parameter \"mode\" has two choices called \"one\""},
+        {"default_beyond_choices",
+         "parameter \"mode\": its default 2.000000 is not the number of a choice"},
+        {"short_type", "the table of its port type 0 is short: struct_size is "},
+        {"no_list_of_types", "its list of port types is missing (NULL)"},
+        {"type_in_small_letters", "the name of its port type 0 \"badness\" is no name of a type"},
+        {"type_of_no_bytes", "its port type \"Badness\": stride 0 is none"},
+        {"type_of_odd_bytes", "its port type \"Badness\": stride 6 is none"},
+        {"type_of_many_bytes", "its port type \"Badness\": stride 4096 is none"},
+        {"type_of_no_shape", "its port type \"Badness\": shape 3 is none"},
+        {"type_of_no_format", "its port type \"Badness\": format \"half\" is none"},
+        {"type_of_another_format",
+         "its port type \"Badness\": stride is 4, but a vec3 has 12 bytes"},
+        {"range_without_format", "only formats float, vec2, vec3 and vec4 have a range"},
+        {"type_range_upside_down",
+         "its port type \"Badness\": min 1.000000 is greater than max 0.000000"},
+        {"two_types_of_a_name", "it has two port types called \"Badness\""},
+        {"hones_type_otherwise", "its port type \"Radiance\" has the name of one of hone's"},
+    };
+    return kAll;
+}
+
+BadPassCase::BadPassCase(const std::string& name) {
+    setenv("HONE_BAD_PASS", name.c_str(), 1);
+}
+
+BadPassCase::~BadPassCase() {
+    unsetenv("HONE_BAD_PASS");
 }
 
 } // namespace hone::test

@@ -15,8 +15,9 @@ namespace hone::test {
 namespace {
 
 std::unique_ptr<TraceBackend> make(const std::string& plugin, const std::string& backend) {
+    PassRegistry passes;
     TraceBackendRegistry registry;
-    Plugin(pluginFile(plugin), hostParallelFor).addTo(registry);
+    Plugin(pluginFile(plugin), hostParallelFor).addTo(passes, registry);
     return registry.create(backend, {}); // the plug-in stays although the others go
 }
 

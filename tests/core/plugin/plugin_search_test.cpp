@@ -21,7 +21,7 @@ protected:
 
     /// The names of the plug-ins that a search loads.
     std::vector<std::string> load(const PluginSearch& search) {
-        plugins_ = loadPlugins(search, registry_, hostParallelFor, problems_);
+        plugins_ = loadPlugins(search, passes_, registry_, hostParallelFor, problems_);
         std::vector<std::string> names;
         for (const Plugin& plugin : plugins_)
             names.push_back(plugin.info().name);
@@ -33,6 +33,7 @@ protected:
         fs::copy_file(pluginFile(plugin), folder.path(name));
     }
 
+    PassRegistry passes_;
     TraceBackendRegistry registry_;
     std::vector<Plugin> plugins_;
     std::vector<std::string> problems_;
@@ -92,9 +93,10 @@ TEST_F(PluginSearching, KeepsTheFirstOfTwoPluginsOfAName) {
     ASSERT_EQ(problems_.size(), 1u);
     EXPECT_NE(problems_[0].find("it is called \"plain_c\", as is "), std::string::npos)
         << problems_[0];
+    PassRegistry no_passes;
     TraceBackendRegistry others;
-    EXPECT_THROW((void)loadPlugins({.files = {first.path("one.so"), second.path("two.so")}}, others,
-                                   hostParallelFor, problems_),
+    EXPECT_THROW((void)loadPlugins({.files = {first.path("one.so"), second.path("two.so")}},
+                                   no_passes, others, hostParallelFor, problems_),
                  PluginError);
 }
 

@@ -4,6 +4,7 @@
 #include "hone/backends/backends.h"
 #include "hone/backends/host/parallel_for.h"
 #include "hone/core/error.h"
+#include "hone/passes/passes.h"
 #include "hone/tests/support/bad_plugins.h"
 #include "hone/tests/support/temporary_folder.h"
 
@@ -23,13 +24,17 @@ namespace fs = std::filesystem;
 
 /// Why `file` is refused; "" if it is not.
 std::string refusal(const fs::path& file) {
+    PassRegistry passes;
+    registerPasses(passes);
     TraceBackendRegistry registry;
     registerTraceBackends(registry);
     const std::vector<std::string> before = registry.names();
+    const std::size_t passes_before = passes.all().size();
     try {
-        Plugin(file, hostParallelFor).addTo(registry);
+        Plugin(file, hostParallelFor).addTo(passes, registry);
     } catch (const PluginError& problem) {
         EXPECT_EQ(registry.names(), before) << "a refused plug-in left something behind";
+        EXPECT_EQ(passes.all().size(), passes_before);
         return problem.what();
     }
     return "";
@@ -66,7 +71,7 @@ TEST(Plugin, SaysWhatItIs) {
     EXPECT_EQ(info.license, "Apache-2.0");
     EXPECT_EQ(info.doc, "A plug-in in plain C.");
     EXPECT_NE(info.build, "");
-    EXPECT_EQ(info.abi_minor, 0u);
+    EXPECT_EQ(info.abi_minor, 1u);
     ASSERT_EQ(info.trace_backends.size(), 1u);
     EXPECT_EQ(info.trace_backends[0].name, "plain_c");
     EXPECT_EQ(info.trace_backends[0].version, "2.1") << "the plug-in's where it has none";
@@ -77,15 +82,42 @@ TEST(Plugin, AddsItsBackendsBehindThoseThatAreThere) {
     TraceBackendRegistry registry;
     registerTraceBackends(registry);
     const std::string preferred = registry.preferred();
-    Plugin(pluginFile("plain_c"), hostParallelFor).addTo(registry);
+    PassRegistry passes;
+    Plugin(pluginFile("plain_c"), hostParallelFor).addTo(passes, registry);
     EXPECT_EQ(registry.names().back(), "plain_c");
     EXPECT_EQ(registry.preferred(), preferred);
 }
 
 TEST(Plugin, WorksWithANewerMinorVersionOfTheBorder) {
     const Plugin plugin(pluginFile("newer_minor"), hostParallelFor);
-    EXPECT_EQ(plugin.info().abi_minor, 1u);
+    EXPECT_EQ(plugin.info().abi_minor, 2u);
     EXPECT_EQ(plugin.info().trace_backends.size(), 1u);
+}
+
+TEST(Plugin, WorksWithAnOlderMinorVersionOfTheBorder) {
+    const Plugin plugin(pluginFile("older_minor"), hostParallelFor);
+    EXPECT_EQ(plugin.info().abi_minor, 0u);
+    EXPECT_EQ(plugin.info().trace_backends.size(), 1u);
+    EXPECT_TRUE(plugin.info().passes.empty());
+}
+
+class BadPasses : public testing::TestWithParam<BadPlugin> {};
+
+TEST_P(BadPasses, AreRefusedWithTheirFileAndReason) {
+    const BadPassCase spoiled(GetParam().name);
+    const std::string text = refusal(pluginFile("bad_pass"));
+    EXPECT_EQ(text.find("plug-in /"), 0) << text;
+    EXPECT_CONTAINS(text, GetParam().reason);
+    for (const char c : text)
+        EXPECT_GE(static_cast<unsigned char>(c), 32) << "a terminal would obey this";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadPasses, testing::ValuesIn(badPasses()),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+// Else the cases above might fail for another reason than theirs.
+TEST(Plugin, WorksWhereNothingIsWrongWithItsPass) {
+    EXPECT_EQ(refusal(pluginFile("bad_pass")), "");
 }
 
 TEST(Plugin, IsNamedInTheReasonEvenWhereItsPathIsHostile) {
