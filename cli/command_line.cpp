@@ -182,6 +182,15 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     passes_app->add_flag("--json", passes_arguments.json, "one JSON object on standard output");
     chosen(passes_app, [&] { return passes(passes_arguments, console); });
 
+    NewPassArguments new_pass_arguments;
+    CLI::App* new_pass_app = app.add_subcommand(
+        "new-pass", "write a plug-in's pass to begin with, that builds as it is");
+    new_pass_app->add_option("name", new_pass_arguments.name, "what graphs will call it")
+        ->required();
+    new_pass_app->add_option("-o,--output", new_pass_arguments.output_directory,
+                             "a new folder (the name)");
+    chosen(new_pass_app, [&] { return newPass(new_pass_arguments, console); });
+
     CompareArguments compare_arguments;
     CLI::App* compare_app =
         app.add_subcommand("compare", "how far two images (EXR, PNG) are apart");
@@ -344,9 +353,9 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     }
     for (SessionArguments* arguments : std::initializer_list<SessionArguments*>{
              &demo_arguments, &render_arguments, &check_arguments, &passes_arguments,
-             &compare_arguments, &doctor_arguments, &replay_arguments, &selftest_arguments,
-             &bench_arguments, &table1_arguments, &tracers_arguments, &measure_arguments,
-             &fit_arguments, &figure10_arguments})
+             &new_pass_arguments, &compare_arguments, &doctor_arguments, &replay_arguments,
+             &selftest_arguments, &bench_arguments, &table1_arguments, &tracers_arguments,
+             &measure_arguments, &fit_arguments, &figure10_arguments})
         arguments->plugins = plugins;
     if (verbose)
         logger().set_level(spdlog::level::info);

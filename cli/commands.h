@@ -55,6 +55,11 @@ struct PassesArguments : SessionArguments {
     bool json = false;
 };
 
+struct NewPassArguments : SessionArguments {
+    std::string name;             ///< of the pass type
+    std::string output_directory; ///< "" = the name, dots as _
+};
+
 struct CompareArguments : SessionArguments {
     std::string a, b;
     std::string layer;          ///< of EXR files; "" = the first with three channels
@@ -175,6 +180,7 @@ struct UpgradeArguments {
 int check(const CheckArguments& arguments, const Console& console);
 int upgrade(const UpgradeArguments& arguments, const Console& console);
 int passes(const PassesArguments& arguments, const Console& console);
+int newPass(const NewPassArguments& arguments, const Console& console);
 int compare(const CompareArguments& arguments, const Console& console);
 int doctor(const DoctorArguments& arguments, const Console& console);
 int render(const RenderArguments& arguments, const Console& console);

@@ -62,7 +62,8 @@ TEST(PluginOption, EndsEveryCommandThatReadsItWith4) {
     const TemporaryFolder folder;
     const std::vector<std::vector<std::string>> commands = {
         {"check", "prt"},     {"render", "prt", "-o", folder.path("out")},
-        {"passes"},           {"doctor"},           {"bench", "parts"},
+        {"passes"},           {"new-pass", "mine", "-o", folder.path("mine")},
+        {"doctor"},           {"bench", "parts"},
         {"bench", "tracers"}, {"demo", "-o", folder.path("demo")}};
     for (std::vector<std::string> command : commands) {
         command.insert(command.end(), {"--plugin", folder.path("absent.so")});
