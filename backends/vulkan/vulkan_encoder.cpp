@@ -125,12 +125,15 @@ void VulkanEncoder::dispatch(const Kernel& kernel, const Arguments& arguments,
     HONE_ASSERT(params.size() == kernel.params_bytes, kernel.name);
     if (count == 0)
         return;
-    auto found = resources_->compute_pipelines.find(kernel.spirv.data());
-    if (found == resources_->compute_pipelines.end())
-        found = resources_->compute_pipelines
-                    .emplace(kernel.spirv.data(), makeComputePipeline(resources_->context, kernel))
-                    .first;
-    const ComputePipeline& pipeline = found->second;
+    const auto pipelineIn = [&](auto& pipelines, auto key) -> const ComputePipeline& {
+        auto found = pipelines.find(key);
+        if (found == pipelines.end())
+            found = pipelines.emplace(key, makeComputePipeline(resources_->context, kernel)).first;
+        return found->second;
+    };
+    const ComputePipeline& pipeline =
+        kernel.content != 0 ? pipelineIn(resources_->made_pipelines, kernel.content)
+                            : pipelineIn(resources_->compute_pipelines, kernel.spirv.data());
     const ShaderInterface& interface = pipeline.interface;
 
     // Spread what is wider than one row of workgroups over rows, as evenly as possible.

@@ -26,8 +26,10 @@ struct VulkanResources {
     VulkanSlots<VulkanBuffer> buffers;
     VulkanSlots<VulkanImage> images;
     VulkanSlots<RasterPipeline> raster_pipelines;
-    /// By the address of the kernel's SPIR-V, which lives as long as the program.
+    /// By the address of the kernel's SPIR-V, which lives as long as the program; those of kernels
+    /// that were made at run time by Kernel::content.
     std::unordered_map<const std::uint32_t*, ComputePipeline> compute_pipelines;
+    std::unordered_map<std::uint64_t, ComputePipeline> made_pipelines;
     /// By the address of the generation shader's SPIR-V.
     std::unordered_map<const std::uint32_t*, RayPipeline> ray_pipelines;
     VulkanDescriptors descriptors;

@@ -35,7 +35,8 @@ private:
     std::size_t count_ = 0;
 };
 
-/// One kernel in both its builds. Plain constant data; lives as long as the program.
+/// One kernel in both its builds. Plain constant data; lives as long as the program, unless it has
+/// a `content`.
 struct Kernel {
     const char* name = "";
     std::span<const std::uint32_t> spirv; ///< empty: host only
@@ -44,6 +45,9 @@ struct Kernel {
     /// disjoint ranges.
     void (*run)(const Arguments& arguments, const void* params, std::uint32_t begin,
                 std::uint32_t end) = nullptr;
+    /// Of SPIR-V that was made at run time and need only outlive the dispatch: a hash of it, by
+    /// which a device knows it again. 0: known by the address of the SPIR-V.
+    std::uint64_t content = 0;
 };
 
 } // namespace hone
