@@ -6,6 +6,7 @@
 #include "hone/core/plugin/plugin.h"
 #include "hone/core/trace/check/check_backend.h"
 #include "hone/core/trace/record/trace_recorder.h"
+#include "hone/passes/glsl/glsl.h"
 
 #include <memory>
 #include <span>
@@ -22,7 +23,7 @@ public:
     /// the installed plug-in folder have, where what does not load is warned about and left out.
     /// Opens no device.
     explicit Session(std::span<const std::string> plugins = {});
-    [[nodiscard]] Catalog catalog() const { return {&passes_, &trace_backends_}; }
+    [[nodiscard]] Catalog catalog() const { return {&passes_, &trace_backends_, &shaders_}; }
     [[nodiscard]] const PassRegistry& passes() const { return passes_; }
     [[nodiscard]] const TraceBackendRegistry& traceBackends() const { return trace_backends_; }
     /// What backends with names like check(embree) found so far.
@@ -43,6 +44,7 @@ public:
 
 private:
     PassRegistry passes_;
+    ShaderCompiler shaders_ = glslCompiler(passes_);
     CheckReport check_report_;
     TraceBackendRegistry trace_backends_;
     std::vector<Plugin> plugins_;
