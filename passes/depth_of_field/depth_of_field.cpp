@@ -29,6 +29,7 @@
 
 #include "hone/core/device/kernel.glsl.h"
 #include "hone/passes/shading/lens_blur.h"
+#include "hone/passes/shading/lens_blur_lanes.h"
 
 namespace hone {
 namespace {
@@ -50,8 +51,14 @@ public:
         const DepthOfFieldKernel::Params params{context.extent, context.param<uint>("taps"),
                                                 context.param<float>("radius_limit")};
         blur_.prepare(context, params.radius_limit);
-        context.dispatch(kDepthOfField, params, context.extent.x * context.extent.y,
-                         blur_.arguments());
+        const auto [confusion, reach] = blur_.arguments();
+        if (context.chosen == context.host)
+            lanes_.blur(
+                {context.extent, params.taps, params.radius_limit, confusion.buffer, reach.buffer},
+                context.in("image").as<vec3>(), context.out("color").as<vec3>());
+        else
+            context.dispatch(kDepthOfField, params, context.extent.x * context.extent.y,
+                             blur_.arguments());
         context.chosen->finish();
         const std::size_t limited = blur_.limitedPixels();
         context.counters->set("depth_of_field.limited", limited);
@@ -64,6 +71,7 @@ public:
 
 private:
     LensBlur blur_;
+    LensBlurLanes lanes_;
     bool has_warned_ = false;
 };
 

@@ -123,15 +123,17 @@ void kernel(uint index) {
     float front_radius = 0.0f;
     for (int step_y = taps.first.y; step_y <= taps.last.y; ++step_y) {
         for (int step_x = taps.first.x; step_x <= taps.last.x; ++step_x) {
-            BlurTap tap = blurTap(taps, index, params.extent, step_x, step_y);
-            if (isOutOfReach(surface, tap, params.radius_limit))
+            uint pixel = blurPixel(index, window, taps, step_x, step_y);
+            BlurStep off = blurStep(step_x * taps.stride, step_y * taps.stride);
+            BlurDisc disc = blurDisc(confusion[pixel], params.radius_limit);
+            if (isOutOfReach(surface, disc, off))
                 continue;
-            BlurShare share = blurShare(surface, tap, params.radius_limit);
-            vec3 color = image[tap.pixel];
+            BlurShare share = blurShare(surface, disc, off);
+            vec3 color = image[pixel];
             addTo(front, share.is_front * share.spread, color);
             addTo(own, share.is_own * share.spread, color);
-            addTo(behind, fillWeight(share), color);
-            front_radius += share.is_front * share.spread * 0.5f * abs(confusion[tap.pixel]);
+            addTo(behind, fillWeight(share, off), color);
+            front_radius += share.is_front * share.spread * 0.5f * abs(disc.diameter);
             hidden_weight += share.is_front * share.open;
             open_weight += share.is_behind * share.open;
             inside_weight += share.open;
@@ -143,7 +145,7 @@ void kernel(uint index) {
     vec3 blurred = front_cover * meanOf(front) + (1.0f - front_cover) * under;
 
     // What the pixels' centres miss of the surface, wherever it is blurred.
-    float own_loss = edgeLoss(0.5f * abs(surface.diameter), stride);
+    float own_loss = edgeLoss(0.5f * abs(surface.disc.diameter), stride);
     vec3 off = max(lossAtNeighbours(index), 2.0f * own_loss * deviationOf(own));
 
     if (flagged[index] != 0u) {

@@ -30,12 +30,14 @@
 // of shading); propagate is hone's own.
 #include "hone/passes/passes.h"
 
+#include "hone_spirv/blur_errors.h"
 #include "hone_spirv/propagate.h"
 #include "hone_spirv/wrong_near.h"
 #include "hone_spirv/wrong_tiles.h"
 
 #include "hone/core/device/kernel.glsl.h"
 #include "hone/passes/shading/lens_blur.h"
+#include "hone/passes/shading/lens_blur_lanes.h"
 
 namespace hone {
 namespace {
@@ -43,6 +45,10 @@ namespace {
 struct PropagateKernel : HostKernel {
     using HostKernel::HostKernel;
 #include "hone/passes/error/propagate/propagate.glsl.h"
+};
+struct BlurErrors : HostKernel {
+    using HostKernel::HostKernel;
+#include "hone/passes/error/propagate/blur_errors.glsl.h"
 };
 struct WrongTiles : HostKernel {
     using HostKernel::HostKernel;
@@ -53,43 +59,72 @@ struct WrongNear : HostKernel {
 #include "hone/passes/error/propagate/wrong_near.glsl.h"
 };
 constexpr Kernel kPropagate = makeKernel<PropagateKernel>("propagate", spirv::propagate);
+constexpr Kernel kBlurErrors = makeKernel<BlurErrors>("blur_errors", spirv::blur_errors);
 constexpr Kernel kWrongTiles = makeKernel<WrongTiles>("wrong_tiles", spirv::wrong_tiles);
 constexpr Kernel kWrongNear = makeKernel<WrongNear>("wrong_near", spirv::wrong_near);
 
 class PropagateError final : public RenderPass {
 public:
     void execute(PassContext& context) override {
-        const BufferView error = context.in("error").buffer;
-        const bool has_post = context.has("post");
-        const PropagateKernel::Params params{.extent = context.extent,
-                                             .taps = context.param<uint>("taps"),
-                                             .radius_limit = context.param<float>("radius_limit"),
-                                             .mode = context.params->choice("mode"),
-                                             .has_post = has_post ? 1u : 0u};
-        blur_.prepare(context, params.radius_limit);
-        const uvec2 tiles = LensBlur::tiles(context.extent);
-        const uint tile_count = tiles.x * tiles.y;
-        if (wrong_near_.bytes() < tile_count * sizeof(uint)) {
-            wrong_tiles_ = context.memory->createBuffer(tile_count * sizeof(uint), "wrong_tiles");
-            wrong_near_ = context.memory->createBuffer(tile_count * sizeof(uint), "wrong_near");
+        const bool is_blurred =
+            context.params->choice("mode") == 0 && context.camera().lens_radius > 0;
+        BufferView error = context.in("error").buffer;
+        if (is_blurred) {
+            blur(context, error);
+            error = blurred_.view();
         }
+        const bool has_post = context.has("post");
+        const Argument extra[] = {{"shading_error", error},
+                                  {"propagated", context.out("error").buffer},
+                                  {"post", has_post ? context.in("post").buffer : error}};
+        const PropagateKernel::Params params{.mode = context.params->choice("mode"),
+                                             .has_post = has_post ? 1u : 0u};
+        context.dispatch(kPropagate, params, context.extent.x * context.extent.y, extra);
+    }
+
+private:
+    /// Blurs the errors as depth_of_field blurs an image.
+    void blur(PassContext& context, BufferView error) {
+        const uvec2 extent = context.extent;
+        const uvec2 tiles = LensBlur::tiles(extent);
+        const uint pixels = extent.x * extent.y, tile_count = tiles.x * tiles.y;
+        const BlurErrors::Params params{extent, context.param<uint>("taps"),
+                                        context.param<float>("radius_limit")};
+        reserve(*context.memory, pixels, tile_count);
+        blur_.prepare(context, params.radius_limit);
         const auto [confusion, reach] = blur_.arguments();
         const Argument extra[] = {confusion,
                                   reach,
                                   {"wrong_tiles", wrong_tiles_.view()},
                                   {"wrong_near", wrong_near_.view()},
                                   {"shading_error", error},
-                                  {"propagated", context.out("error").buffer},
-                                  {"post", has_post ? context.in("post").buffer : error}};
-        context.dispatch(kWrongTiles, WrongTiles::Params{context.extent, tiles, LensBlur::kTile},
+                                  {"clean", clean_.view()},
+                                  {"blurred", blurred_.view()}};
+        context.dispatch(kWrongTiles, WrongTiles::Params{extent, tiles, LensBlur::kTile},
                          tile_count, extra);
         context.dispatch(kWrongNear, WrongNear::Params{tiles, LensBlur::kTile}, tile_count, extra);
-        context.dispatch(kPropagate, params, context.extent.x * context.extent.y, extra);
+        if (context.chosen == context.host)
+            lanes_.blur({extent, params.taps, params.radius_limit, confusion.buffer, reach.buffer,
+                         wrong_near_.as<uint>().first(tile_count)},
+                        clean_.as<vec2>().first(pixels), blurred_.as<vec2>().first(pixels));
+        else
+            context.dispatch(kBlurErrors, params, pixels, extra);
     }
 
-private:
+    void reserve(Device& memory, std::size_t pixels, std::size_t tile_count) {
+        if (clean_.bytes() < pixels * sizeof(vec2)) {
+            clean_ = memory.createBuffer(pixels * sizeof(vec2), "clean");
+            blurred_ = memory.createBuffer(pixels * sizeof(vec2), "blurred");
+        }
+        if (wrong_near_.bytes() < tile_count * sizeof(uint)) {
+            wrong_tiles_ = memory.createBuffer(tile_count * sizeof(uint), "wrong_tiles");
+            wrong_near_ = memory.createBuffer(tile_count * sizeof(uint), "wrong_near");
+        }
+    }
+
     LensBlur blur_;
-    Buffer wrong_tiles_, wrong_near_;
+    LensBlurLanes lanes_;
+    Buffer clean_, blurred_, wrong_tiles_, wrong_near_;
 };
 
 } // namespace
