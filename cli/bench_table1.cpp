@@ -100,13 +100,16 @@ private:
         const Camera camera = makeCamera(view.camera);
         Table1Row row{.size = size, .samples = samples, .view = view};
         std::map<Table1Share, std::vector<double>> stage_ms;
+        std::map<std::string, std::vector<double>> pass_ms;
         for (Executor* executor : {&refined, &traced})
             executor->setExtent(size);
         const auto refine = [&] {
             runMoved(refined, camera);
             std::map<Table1Share, double> now;
-            for (const NodeReport& node : refined.nodes())
+            for (const NodeReport& node : refined.nodes()) {
                 now[shareOf(node.type)] += node.ms;
+                pass_ms[node.name].push_back(node.ms);
+            }
             for (const auto& [share, share_ms] : now)
                 stage_ms[share].push_back(share_ms);
         };
@@ -123,6 +126,8 @@ private:
         row.raster_share = part(Table1Share::kRaster);
         row.metric_share = part(Table1Share::kMetric);
         row.sort_share = part(Table1Share::kSort);
+        for (const NodeReport& node : refined.nodes())
+            row.passes.emplace_back(node.name, median(pass_ms[node.name]));
         return row;
     }
 

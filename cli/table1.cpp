@@ -60,6 +60,9 @@ Json Table1::json() const {
     Json list = Json::array();
     for (const Table1Row& row : rows) {
         const std::optional<double> paper = row.paperRatio();
+        Json passes = Json::object();
+        for (const auto& [name, ms] : row.passes)
+            passes[name] = ms;
         list.push_back({{"size", text(row.size)},
                         {"samples", row.samples},
                         {"camera",
@@ -77,7 +80,8 @@ Json Table1::json() const {
                         {"ratio", row.ratio},
                         {"limit", row.limit()},
                         {"ok", row.ratio <= row.limit()},
-                        {"paper_ratio", paper ? Json(*paper) : Json(nullptr)}});
+                        {"paper_ratio", paper ? Json(*paper) : Json(nullptr)},
+                        {"passes", passes}});
     }
     return {{"baseline", kBaseline}, {"rows", list}};
 }

@@ -7,7 +7,9 @@
 
 #include <iosfwd>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace hone::cli {
@@ -29,6 +31,7 @@ struct Table1Row {
     double sort_share = 0;
     double prt_ms = 0, sir_ms = 0; ///< medians
     double ratio = 0;              ///< sir_ms / prt_ms, the median of what ran side by side
+    std::vector<std::pair<std::string, double>> passes{}; ///< of SIR with their milliseconds
 
     /// What `ratio` is held to: what has to be done, and a twentieth of PRT on top.
     [[nodiscard]] double limit() const { return f_c + raster_share + 0.05; }
@@ -40,7 +43,8 @@ struct Table1Row {
 struct Table1 {
     std::vector<Table1Row> rows;
 
-    /// {"baseline", "rows": [{size, samples, camera, error_share, f_c, raster_share, ...}]}
+    /// {"baseline", "rows": [{size, samples, camera, error_share, f_c, raster_share, ..., passes:
+    /// {name: ms}}]}
     [[nodiscard]] nlohmann::ordered_json json() const;
     void print(std::ostream& out) const;
     [[nodiscard]] bool allMet() const;
