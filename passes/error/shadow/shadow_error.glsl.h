@@ -206,7 +206,8 @@ bool isAcross(LightCone cone, DepthRange range) {
 
 /// The test of Guennebaud et al. (2006, section 3.2) on one face: depths of the area that the
 /// segments cross say up to where they are free, which makes the area smaller, and so on.
-uint searchFace(LightCone cone, MaskView view, uint ranges_first, float nearest, bool is_own) {
+uint searchFace(Light light, MaskFrame frame, uint face, LightCone cone, uint ranges_first,
+                float nearest, bool is_own) {
     float size = shadow_maps[0];
     float lit_from = nearnessOf(cone.tip, cone.tip.depth - kBias * cone.tip.depth);
     float start = params.near > 0.0f ? params.near : nearest;
@@ -236,13 +237,15 @@ uint searchFace(LightCone cone, MaskView view, uint ranges_first, float nearest,
     if (is_inside && isAcross(cone, range))
         return kBlocked;
     if (params.retest != 0u) {
-        if (is_inside && isAcross(cone, areaRange(ranges_first, low, high, kRetestBlocks)))
+        // What nbuffer said was exact already.
+        if (is_inside && shadow_ranges[1].x == kRangeHsm &&
+            isAcross(cone, areaRange(ranges_first, low, high, kRetestBlocks)))
             return kBlocked;
         if (!retestArea(cone, ranges_first, low, high))
             return kFree;
     }
     if (params.detail > 0u)
-        hideCells(cone, view, ranges_first, low, high);
+        hideCells(cone, maskView(light, frame, face, cone.tip), ranges_first, low, high);
     return kUnclear;
 }
 
@@ -286,12 +289,15 @@ ShadowEstimate estimateShadow(uint light_index, Surface surface) {
     ShadowLookup own = shadowLookup(light_index, 0u, own_face, position, surface.geometric_normal);
     ShadowEstimate result;
     result.drawn = shadowMapVisibility(light_index, 0u, surface);
-    clearMask();
 
     bool is_free = true;
     bool is_blocked = false;
     bool is_inside_light = false;
-    MaskFrame frame = maskFrame(light, extent, own_face, own);
+    MaskFrame frame;
+    if (params.detail > 0u) {
+        clearMask();
+        frame = maskFrame(light, extent, own_face, own);
+    }
     // All segments to a point are one, which is in another face's margin near the border only.
     bool is_in_own_only = !hasExtent(light) && isFarFromBorder(own.position);
     for (uint face = 0u; face < faces && !is_blocked; ++face) {
@@ -309,9 +315,9 @@ ShadowEstimate estimateShadow(uint light_index, Surface surface) {
         if (face != own_face)
             tip = shadowLookup(light_index, 0u, face, position, surface.geometric_normal);
         LightCone cone = lightCone(light, extent, face, tip);
-        MaskView view = maskView(light, frame, face, tip);
         uint ranges_first = rangeLevelsFirst(first_face + face);
-        uint found = searchFace(cone, view, ranges_first, of_face.x, face == own_face);
+        uint found =
+            searchFace(light, frame, face, cone, ranges_first, of_face.x, face == own_face);
         is_blocked = found == kBlocked;
         is_free = is_free && found == kFree;
     }
