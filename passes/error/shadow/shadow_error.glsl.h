@@ -130,8 +130,22 @@ uint levelOf(uvec2 low, uvec2 high, uint most) {
     return level;
 }
 
-/// retestBlock for the blocks that hold the cells from low to high, few of them.
+/// Whether the texel that the cone's tip is in blocks the segment to the light's centre.
+bool isTipHidden(LightCone cone) {
+    float most = shadow_maps[0] - 1.0f;
+    if (cone.tip.position.x < 0.0f || cone.tip.position.y < 0.0f || cone.tip.position.x > most ||
+        cone.tip.position.y > most)
+        return false;
+    uint x = uint(cone.tip.position.x);
+    uint y = uint(cone.tip.position.y);
+    return isBlocker(cone, x, y, texelNearness(cone, x, y));
+}
+
+/// retestBlock for the blocks that hold the cells from low to high, few of them. Where the light's
+/// centre is hidden they need not be looked at.
 bool retestArea(LightCone cone, uint ranges_first, uvec2 low, uvec2 high) {
+    if (isTipHidden(cone))
+        return true;
     uint level = levelOf(low, high, 1u);
     for (uint y = low.y >> level; y <= high.y >> level; ++y)
         for (uint x = low.x >> level; x <= high.x >> level; ++x)
