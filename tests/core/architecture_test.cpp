@@ -99,7 +99,9 @@ TEST(Architecture, OneRoomNamesEachForeignApi) {
         const char* room;
     };
     static constexpr std::array kApis{Api{"vulkan/", "backends/vulkan/"},
-                                      Api{"spirv_cross/", "backends/vulkan/"},
+                                      Api{"spirv_cross/spirv_cross", "backends/vulkan/"},
+                                      Api{"glslang/", "passes/glsl/"},
+                                      Api{"spirv-tools/", "passes/glsl/"},
                                       Api{"embree", "backends/embree/"},
                                       Api{"OpenEXR/", "core/image/"},
                                       Api{"png.h", "core/image/"},
