@@ -146,6 +146,9 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
         ->add_option("--reference", render_arguments.reference,
                      "compare the color output with this image")
         ->excludes(frames_option);
+    addPins(render_app, render_arguments.pins);
+    render_app->add_option("--trace", render_arguments.trace,
+                           "write when each pass ran to this file, for chrome://tracing, Perfetto");
     render_app->add_option("--record", render_arguments.record,
                            "write every ray and its answer to this file, for hone replay");
     render_app

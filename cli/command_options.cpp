@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <map>
+#include <stdexcept>
 
 namespace hone::cli {
 namespace {
@@ -56,6 +57,23 @@ void addOverrides(CLI::App* app, Overrides& overrides) {
            },
            "a graph's parameter (batch=4096) or a pass's (refine.trace.max_depth=1); repeatable")
         ->type_name("NAME=VALUE")
+        ->take_all();
+}
+
+void addPins(CLI::App* app, std::vector<PinRequest>& pins) {
+    app->add_option_function<std::vector<std::string>>(
+           "--pin",
+           [&pins](const std::vector<std::string>& texts) {
+               for (const std::string& text : texts)
+                   try {
+                       pins.push_back(parsePin(text));
+                   } catch (const std::invalid_argument& problem) {
+                       throw CLI::ValidationError("--pin", problem.what());
+                   }
+           },
+           "save what a pass made, in one iteration of its loop or the last: planes as .exr, "
+           "lists as .csv; repeatable")
+        ->type_name("PASS.PORT[@ITERATION]=FILE")
         ->take_all();
 }
 

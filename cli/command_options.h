@@ -16,6 +16,8 @@ CLI::Option* addSize(CLI::App* app, const std::string& name, uvec2& size, const 
 void addSizes(CLI::App* app, std::vector<uvec2>& sizes);
 /// --set NAME=VALUE
 void addOverrides(CLI::App* app, Overrides& overrides);
+/// --pin PASS.PORT[@ITERATION]=FILE
+void addPins(CLI::App* app, std::vector<PinRequest>& pins);
 /// What measure, fit and bench figure10 have in common.
 void addMeasureOptions(CLI::App* app, MeasureArguments& arguments);
 

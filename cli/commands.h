@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hone/cli/pin.h"
 #include "hone/core/graph/compiled_graph.h"
 #include "hone/core/math.h"
 #include "hone/tests/conformance/conformance_kit.h"
@@ -93,6 +94,8 @@ struct RenderArguments : SessionArguments {
     std::string reference;     ///< an image to compare "color" with
     std::string record;        ///< file to write every ray and answer to; "" = none
     std::uint64_t record_limit = std::uint64_t{1} << 30; ///< bytes of it
+    std::vector<PinRequest> pins;                        ///< values to save besides the outputs
+    std::string trace;     ///< file to write when each pass ran; "" = none
     bool validate = false; ///< Vulkan validation layer; messages fail the run
     bool quiet = false;
     bool json = false;

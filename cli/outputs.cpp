@@ -2,50 +2,14 @@
 #include "hone/cli/outputs.h"
 
 #include "hone/cli/color_map.h"
+#include "hone/cli/value_file.h"
 #include "hone/core/image/atomic_file.h"
 #include "hone/core/image/png.h"
 
 #include <algorithm>
-#include <cstring>
 #include <functional>
-#include <sstream>
 
 namespace hone::cli {
-namespace {
-
-/// A plane's elements as floats, `channels` a pixel. Whole numbers above 2^24 lose their last
-/// digits.
-ImageLayer toLayer(const std::string& name, const Value& value) {
-    ImageLayer layer{name, {}, {}};
-    const auto add = [&]<class T>(std::span<const T> words) {
-        layer.values.assign(words.begin(), words.end());
-    };
-    const std::size_t words = value.count * value.type->stride / 4;
-    if (*value.type == types::kError)
-        layer.channel_names = {"expect", "bound"};
-    else if (*value.type == types::kHits)
-        layer.channel_names = {"instance", "primitive"};
-    else
-        layer.channel_names = usualChannelNames(value.type->stride / 4);
-    if (*value.type == types::kHits || *value.type == types::kRound ||
-        *value.type == types::kSampleCounts)
-        add(std::span<const uint>(value.buffer.as<uint>().first(words)));
-    else
-        add(std::span<const float>(value.buffer.as<float>().first(words)));
-    return layer;
-}
-
-std::string toCsv(const Curve& curve) {
-    std::ostringstream text;
-    text << "iteration,pixels,rays,ms,worst_expect\n";
-    for (const LoopRecord& record : curve.records)
-        text << record.iteration << ',' << record.pixels << ',' << record.rays << ',' << record.ms
-             << ',' << record.worst_expect << '\n';
-    return text.str();
-}
-
-} // namespace
-
 std::string fileStem(std::string name) {
     const auto is_plain = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -109,7 +73,7 @@ std::vector<std::string> writeOutputs(const Executor& executor, const std::strin
     for (const std::string& name : executor.outputs()) {
         const Value& value = executor.output(name);
         if (value.type->shape == Shape::kCurve && value.curve != nullptr) {
-            const std::string text = toCsv(*value.curve);
+            const std::string text = toCsv(value);
             paths.push_back(file(name, ".csv"));
             writeFileAtomically(paths.back(), std::as_bytes(std::span(text)));
         }

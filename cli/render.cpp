@@ -152,9 +152,11 @@ Json renderFrames(Stage& stage, const RenderArguments& arguments, const Console&
         const auto [end, error] = std::to_chars(time_text, std::end(time_text), time);
         std::string number = std::to_string(frame);
         number.insert(0, digits - number.size(), '0');
-        const std::vector<std::string> files = writeOutputs(
-            *stage.executor, arguments.output_directory,
-            provenanceOf(stage, arguments, {path.name, std::string(time_text, end)}), number);
+        const Provenance provenance =
+            provenanceOf(stage, arguments, {path.name, std::string(time_text, end)});
+        std::vector<std::string> files =
+            writeOutputs(*stage.executor, arguments.output_directory, provenance, number);
+        console.err << stage.pins.write(stage.executor->graph(), provenance, files, number);
 
         const Json whole = report(stage, arguments, frame_ms, files);
         Json picture{{"frame", frame}, {"time", time}};
@@ -195,6 +197,7 @@ int render(const RenderArguments& arguments, const Console& console) {
             return kTargetNotMet;
     }
     std::vector<std::string> paths;
+    bool is_all_written = true;
     Json result;
     if (arguments.frames > 0) {
         const Json frames = renderFrames(*stage, arguments, console);
@@ -207,9 +210,17 @@ int render(const RenderArguments& arguments, const Console& console) {
     } else {
         runWithProgress(*stage, arguments, console);
         const double frame_ms = msSince(begin);
-        paths = writeOutputs(*stage->executor, arguments.output_directory,
-                             provenanceOf(*stage, arguments, {}));
+        const Provenance provenance = provenanceOf(*stage, arguments, {});
+        paths = writeOutputs(*stage->executor, arguments.output_directory, provenance);
+        const std::string missing = stage->pins.write(stage->executor->graph(), provenance, paths);
+        console.err << missing;
+        is_all_written = missing.empty();
         result = report(*stage, arguments, frame_ms, paths);
+    }
+    if (stage->trace != nullptr) {
+        stage->trace->write(arguments.trace, stage->executor->graph().name);
+        result["trace"] = arguments.trace;
+        paths.push_back(arguments.trace);
     }
     if (stage->recorder != nullptr) {
         stage->recorder->finish();
@@ -251,7 +262,9 @@ int render(const RenderArguments& arguments, const Console& console) {
     // Lists that a tracer had to copy are known only now.
     if (!areCopiesAllowed(stage->executor->copies(), arguments.max_copies, console.err))
         return kTargetNotMet;
-    return stage->session.validationMessages() == 0 ? kOk : kTargetNotMet;
+    if (stage->session.validationMessages() > 0)
+        return kTargetNotMet;
+    return is_all_written ? kOk : kNotWritten;
 }
 
 } // namespace hone::cli

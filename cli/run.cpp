@@ -3,9 +3,11 @@
 
 #include "hone/cli/progress.h"
 #include "hone/core/error.h"
+#include "hone/core/image/atomic_file.h"
 
 #include <atomic>
 #include <csignal>
+#include <filesystem>
 #include <ostream>
 
 namespace hone::cli {
@@ -46,6 +48,12 @@ std::unique_ptr<Stage> makeStage(const RenderArguments& arguments, const Console
     auto stage = std::make_unique<Stage>(arguments.plugins);
     CompiledGraph graph =
         loadGraph(findGraph(arguments.graph), stage->session.catalog(), arguments.overrides);
+    // Before anything is opened: can what is asked for be kept?
+    stage->pins = Pins(graph, arguments.pins);
+    if (!arguments.trace.empty()) {
+        requireWritableDirectory(std::filesystem::path(arguments.trace).parent_path().string());
+        stage->trace = std::make_unique<TraceEvents>();
+    }
     if (!arguments.record.empty()) {
         stage->recorder = std::make_unique<TraceRecorder>(arguments.record, arguments.record_limit);
         stage->session.record(*stage->recorder);
@@ -78,7 +86,16 @@ void runWithProgress(Stage& stage, const RenderArguments& arguments, const Conso
         progress.show(record);
         return true;
     };
+    if (!stage.pins.empty() || stage.trace != nullptr)
+        options.on_pass = [&](const PassEvent& event) {
+            stage.pins.see(event, *stage.executor);
+            if (stage.trace != nullptr)
+                stage.trace->see(event, *stage.executor);
+        };
+    const auto begin = std::chrono::steady_clock::now();
     stage.executor->run(options);
+    if (stage.trace != nullptr)
+        stage.trace->add("frame", begin, std::chrono::steady_clock::now());
 }
 
 UsedBackend backendOf(const Stage& stage) {

@@ -3,6 +3,7 @@
 
 #include "hone/cli/commands.h"
 #include "hone/cli/session.h"
+#include "hone/cli/trace_events.h"
 
 #include <memory>
 #include <span>
@@ -19,6 +20,8 @@ struct Stage {
     Camera camera{};
     std::unique_ptr<TraceRecorder> recorder; ///< null: nothing is recorded
     std::unique_ptr<Executor> executor;
+    Pins pins;
+    std::unique_ptr<TraceEvents> trace; ///< null: nobody asked when passes ran
 };
 
 /// Loads and compiles the graph, loads the scene (its warnings go to console.err), opens devices.

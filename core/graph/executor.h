@@ -5,6 +5,7 @@
 #include "hone/core/pass/pass.h"
 #include "hone/core/scene/scene_buffers.h"
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -12,6 +13,16 @@
 #include <vector>
 
 namespace hone {
+
+/// One execution of a pass, or of a loop with all its iterations, told when it is over.
+struct PassEvent {
+    NodeId node = kNoId; ///< index into Executor::graph().nodes
+    uint iteration = 0;  ///< of the loop that it is in, from 1; outside loops 0
+    std::chrono::steady_clock::time_point begin, end;
+    bool is_whole = true; ///< false: a limit cut it, and its outputs are half-written
+    /// By port; of a loop none. What runs next may overwrite their contents.
+    std::span<const BoundPort> outputs;
+};
 
 /// Limits and callbacks of one run; zero is no limit. They come on top of the graph's own stop
 /// rules and are looked at after each iteration of an outermost loop. A loop that one of them cut
@@ -32,6 +43,10 @@ struct RunOptions {
     /// Called after each iteration of an outermost loop that did something; returns false to stop
     /// there ("cancelled"). May be empty.
     std::function<bool(const LoopRecord&)> on_iteration{};
+    /// Called after each execution of a pass or loop, once the device has finished its work: times
+    /// are its own, its outputs may be read, and a hardware device loses its head start. May be
+    /// empty, at no cost.
+    std::function<void(const PassEvent&)> on_pass{};
     /// For tests: fills what a pass is about to write with NaN bits, so that whoever reads what
     /// was not written, or what another value's memory held, is seen.
     bool poison_outputs = false;

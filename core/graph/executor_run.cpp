@@ -130,7 +130,19 @@ bool Executor::State::runNode(NodeId id, uint iteration, bool goes_on) {
     const Clock::time_point begin = Clock::now();
     const bool is_done = is_loop ? runLoop(id, is_new) : runPass(id, iteration);
     nodes[id].ms += msSince(begin);
+    if (options->on_pass)
+        tellOf(id, iteration, begin, is_done);
     return is_done;
+}
+
+void Executor::State::tellOf(NodeId id, uint iteration, Clock::time_point begin, bool is_whole) {
+    finishDevice();
+    options->on_pass({.node = id,
+                      .iteration = iteration,
+                      .begin = begin,
+                      .end = Clock::now(),
+                      .is_whole = is_whole,
+                      .outputs = nodes[id].outputs});
 }
 
 bool Executor::State::runPass(NodeId id, uint iteration) {

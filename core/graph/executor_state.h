@@ -78,6 +78,7 @@ struct Executor::State {
 
     // Each returns whether it came to its end, or else is to go on in the next run.
     [[nodiscard]] bool runNode(NodeId id, uint iteration, bool goes_on = false);
+    void tellOf(NodeId id, uint iteration, Clock::time_point begin, bool is_whole);
     [[nodiscard]] bool runPass(NodeId id, uint iteration);
     [[nodiscard]] bool execute(NodeId id, uint iteration, bool goes_on);
     [[nodiscard]] bool runLoop(NodeId id, bool is_new);
