@@ -37,7 +37,7 @@ int check(const CheckArguments& arguments, const Console& console) {
         } else if (!arguments.json) {
             console.out << path << ": ok\n";
             if (arguments.plan)
-                console.out << dump(graph);
+                console.out << dump(graph, arguments.size);
         }
     }
     if (arguments.json)

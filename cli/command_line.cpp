@@ -166,7 +166,10 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
         app.add_subcommand("check", "report every problem in graph files; opens no device");
     check_app->add_option("graphs", check_arguments.graphs, "graph files")->required();
     addOverrides(check_app, check_arguments.overrides);
-    check_app->add_flag("--plan", check_arguments.plan, "print the compiled plan");
+    CLI::Option* plan_option =
+        check_app->add_flag("--plan", check_arguments.plan, "print the compiled plan");
+    addSize(check_app, "--size", check_arguments.size, "of images: what the plan's memories take")
+        ->needs(plan_option);
     check_app->add_flag("--json", check_arguments.json, "one JSON object on standard output");
     chosen(check_app, [&] { return check(check_arguments, console); });
 

@@ -47,7 +47,8 @@ struct SessionArguments {
 struct CheckArguments : SessionArguments {
     std::vector<std::string> graphs;
     Overrides overrides;
-    bool plan = false; ///< print the plan's dump
+    bool plan = false; ///< print the plan's dump,
+    uvec2 size{0, 0};  ///< with what memories take for this size; 0 = per element
     bool json = false;
 };
 

@@ -3,6 +3,7 @@
 
 #include "hone/core/graph/diagnostics.h"
 #include "hone/core/graph/graph_desc.h"
+#include "hone/core/math.h"
 #include "hone/core/pass/pass_type.h"
 #include "hone/core/pass/shader_pass.h"
 
@@ -200,7 +201,11 @@ struct CompiledGraph {
 [[nodiscard]] CompiledGraph loadGraph(const std::string& path, const Catalog& catalog,
                                       const Overrides& overrides);
 
-/// The plan as stable text: order, culled passes with reasons, lifetimes, memory, copies.
-[[nodiscard]] std::string dump(const CompiledGraph& graph);
+/// The plan as stable text: order, culled passes with reasons, lifetimes, memory, copies. With an
+/// extent also what memories take for images of that size.
+[[nodiscard]] std::string dump(const CompiledGraph& graph, uvec2 extent = {0, 0});
+
+/// When a loop ends: "refine.request.requests is empty or 64 iterations, no limit of ms".
+[[nodiscard]] std::string stopText(const CompiledGraph& graph, const PlannedLoop& loop);
 
 } // namespace hone

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/core/graph/compiled_graph.h"
+#include "hone/core/graph/plan_sizes.h"
 
 #include <algorithm>
 
@@ -24,9 +25,29 @@ std::string pad(std::string text, std::size_t width) {
     return text;
 }
 
+std::string padLeft(const std::string& text, std::size_t width) {
+    return std::string(width - std::min(width, text.size()), ' ') + text;
+}
+
+std::string number(double limit) {
+    const auto whole = static_cast<std::uint64_t>(limit);
+    return static_cast<double>(whole) == limit ? std::to_string(whole) : std::to_string(limit);
+}
+
 class Dump {
 public:
-    explicit Dump(const CompiledGraph& graph) : graph_(&graph) {}
+    Dump(const CompiledGraph& graph, uvec2 extent) : graph_(&graph) {
+        if (extent.x > 0)
+            sizes_ = planSizes(graph, extent);
+        for (const PlannedValue& value : graph.values) {
+            if (!value.is_needed)
+                continue;
+            name_width_ = std::max(name_width_, value.name.size());
+            type_width_ = std::max(type_width_, value.type.name.size());
+        }
+        if (extent.x > 0)
+            at_ = " at " + std::to_string(extent.x) + "x" + std::to_string(extent.y);
+    }
 
     std::string text() {
         text_ = "graph " + (graph_->name.empty() ? std::string("(no name)") : graph_->name) + "\n";
@@ -46,7 +67,7 @@ public:
         for (const PlannedValue& value : graph_->values)
             if (value.is_needed)
                 writeValue(value);
-        section("memory");
+        section("memory" + at_);
         for (std::size_t i = 0; i < graph_->memories.size(); ++i)
             writeMemory(i);
         writeSaved();
@@ -80,7 +101,8 @@ private:
                 continue;
             }
             const PlannedLoop& loop = graph_->loops[node.loop];
-            line(text + " (loop to step " + std::to_string(loop.last_step) + stopRules(loop) + ")");
+            line(text + " (loop to step " + std::to_string(loop.last_step) + "; until " +
+                 stopText(*graph_, loop) + ")");
             writeOrder(loop.body, depth + 1);
         }
     }
@@ -94,39 +116,13 @@ private:
         return text;
     }
 
-    std::string stopRules(const PlannedLoop& loop) const {
-        std::string text;
-        for (const StopRule& rule : loop.stop) {
-            text += text.empty() ? "; until " : " or ";
-            if (rule.kind == StopRule::Kind::kEmpty) {
-                text += graph_->values[rule.value].name + " is empty";
-                continue;
-            }
-            if (rule.kind == StopRule::Kind::kBelow) {
-                text += graph_->values[rule.value].name + " is below " + number(rule.limit);
-                continue;
-            }
-            text += rule.limit == 0 ? "no limit of " : number(rule.limit) + " ";
-            text += rule.kind == StopRule::Kind::kRays ? "rays"
-                    : rule.kind == StopRule::Kind::kMs ? "ms"
-                                                       : "iterations";
-        }
-        if (loop.check_every != 1)
-            text += ", checked every " + std::to_string(loop.check_every);
-        return text;
-    }
-
-    static std::string number(double limit) {
-        const auto whole = static_cast<std::uint64_t>(limit);
-        return static_cast<double>(whole) == limit ? std::to_string(whole) : std::to_string(limit);
-    }
-
     void writeValue(const PlannedValue& value) {
         constexpr std::uint32_t kForever = 0xffffffffu;
         const std::string last =
             value.last_step == kForever ? "end" : std::to_string(value.last_step);
-        std::string text = pad(value.name, 26) + " " + pad(std::string(value.type.name), 16) +
-                           " steps " + std::to_string(value.first_step) + " to " + last;
+        std::string text = pad(value.name, name_width_ + 1) +
+                           pad(std::string(value.type.name), type_width_ + 1) + "steps " +
+                           std::to_string(value.first_step) + " to " + last;
         if (value.memory != kNoId)
             text += ", memory " + std::to_string(value.memory);
         line(text);
@@ -135,7 +131,12 @@ private:
     void writeMemory(std::size_t index) {
         const PlannedMemory& memory = graph_->memories[index];
         std::string text = pad(std::to_string(index), 4) + pad(shapeName(memory.shape), 7) +
-                           std::to_string(memory.stride) + " B  ";
+                           padLeft(std::to_string(memory.stride), 2) + " B  ";
+        if (sizes_)
+            text +=
+                padLeft(sizes_->memories[index] ? byteText(*sizes_->memories[index]) : "by scene",
+                        8) +
+                "  ";
         for (const ValueId id : memory.values) {
             if (id != memory.values.front())
                 text += ", ";
@@ -156,6 +157,12 @@ private:
 
     /// What the values would take if each had memory of its own, and what they take.
     void writeSaved() {
+        if (sizes_) {
+            line("in all " + byteText(sizes_->bytes) +
+                 (sizes_->unknown > 0 ? " and what the scene decides" : "") + "; sharing saves " +
+                 byteText(sizes_->saved));
+            return;
+        }
         for (const Shape shape : {Shape::kPlane, Shape::kList, Shape::kRecord}) {
             std::size_t alone = 0;
             std::size_t shared = 0;
@@ -216,14 +223,43 @@ private:
     }
 
     const CompiledGraph* graph_;
+    std::optional<PlanSizes> sizes_; ///< where an extent was given
+    std::string at_;                 ///< " at 800x600"
+    std::size_t name_width_ = 26;    ///< at least, so that a new name rarely moves the others
+    std::size_t type_width_ = 16;
     std::string text_;
     std::string title_;
 };
 
 } // namespace
 
-std::string dump(const CompiledGraph& graph) {
-    return Dump(graph).text();
+std::string stopText(const CompiledGraph& graph, const PlannedLoop& loop) {
+    std::string text;
+    std::string off;
+    for (const StopRule& rule : loop.stop) {
+        using Kind = StopRule::Kind;
+        const std::string value = rule.value != kNoId ? graph.values[rule.value].name : "";
+        const std::string unit = rule.kind == Kind::kRays         ? "rays"
+                                 : rule.kind == Kind::kMs         ? "ms"
+                                 : rule.kind == Kind::kIterations ? "iterations"
+                                                                  : value;
+        if (rule.kind != Kind::kEmpty && rule.limit == 0) {
+            off += (off.empty() ? ", no limit of " : " and ") + unit;
+            continue;
+        }
+        text += (text.empty() ? "" : " or ") + (rule.kind == Kind::kEmpty ? value + " is empty"
+                                                : rule.kind == Kind::kBelow
+                                                    ? value + " is below " + number(rule.limit)
+                                                    : number(rule.limit) + " " + unit);
+    }
+    text += off;
+    if (loop.check_every != 1)
+        text += ", checked every " + std::to_string(loop.check_every);
+    return text;
+}
+
+std::string dump(const CompiledGraph& graph, uvec2 extent) {
+    return Dump(graph, extent).text();
 }
 
 } // namespace hone

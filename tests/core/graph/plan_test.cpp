@@ -13,7 +13,9 @@ TEST_P(Plan, IsAsWrittenDown) {
     EXPECT_EQ(dump(plan(planFile(name + ".json"))), planFile(name + ".plan"));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Plan, testing::Values("refinement", "shared_memory", "nested_loops"),
+INSTANTIATE_TEST_SUITE_P(All, Plan,
+                         testing::Values("refinement", "shared_memory", "nested_loops",
+                                         "last_frame"),
                          [](const auto& test) { return std::string(test.param); });
 
 class PlanTest : public GraphTest {};
