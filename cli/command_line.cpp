@@ -10,6 +10,7 @@
 #include <functional>
 #include <iostream>
 #include <new>
+#include <tuple>
 
 #include <unistd.h>
 
@@ -180,6 +181,24 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     upgrade_app->add_flag("--print", upgrade_arguments.print,
                           "print the new text instead of writing it");
     chosen(upgrade_app, [&] { return upgrade(upgrade_arguments, console); });
+
+    DrawArguments draw_arguments;
+    CLI::App* draw_app = app.add_subcommand("draw", "draw a graph: passes, ports, loops, memory");
+    draw_app->add_option("graph", draw_arguments.graph, "graph file or shipped graph")->required();
+    draw_app->add_option("-o,--output", draw_arguments.output,
+                         "*.svg, *.png, *.pdf (with Graphviz) or *.dot (Graphviz' language on "
+                         "standard output)");
+    addSize(draw_app, "--size", draw_arguments.size, "image size, for memory and times (800x600)");
+    addOverrides(draw_app, draw_arguments.overrides);
+    CLI::Option* times_option = draw_app->add_flag("--times", draw_arguments.times,
+                                                   "run it once and show how long each pass took");
+    for (const auto& [name, argument, doc] :
+         {std::tuple("--scene", &draw_arguments.scene, "what is rendered then (builtin:atrium)"),
+          std::tuple("--camera", &draw_arguments.camera, "a camera of the scene (its first)"),
+          std::tuple("--device", &draw_arguments.device,
+                     "Vulkan device: part of its name, or none")})
+        draw_app->add_option(name, *argument, doc)->needs(times_option);
+    chosen(draw_app, [&] { return draw(draw_arguments, console); });
 
     PassesArguments passes_arguments;
     CLI::App* passes_app =
@@ -358,10 +377,10 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
         return app.exit(problem, out, err) == 0 ? kOk : kUsage;
     }
     for (SessionArguments* arguments : std::initializer_list<SessionArguments*>{
-             &demo_arguments, &render_arguments, &check_arguments, &passes_arguments,
-             &new_pass_arguments, &compare_arguments, &doctor_arguments, &replay_arguments,
-             &selftest_arguments, &bench_arguments, &table1_arguments, &tracers_arguments,
-             &measure_arguments, &fit_arguments, &figure10_arguments})
+             &demo_arguments, &render_arguments, &check_arguments, &draw_arguments,
+             &passes_arguments, &new_pass_arguments, &compare_arguments, &doctor_arguments,
+             &replay_arguments, &selftest_arguments, &bench_arguments, &table1_arguments,
+             &tracers_arguments, &measure_arguments, &fit_arguments, &figure10_arguments})
         arguments->plugins = plugins;
     if (verbose)
         logger().set_level(spdlog::level::info);

@@ -102,6 +102,11 @@ struct RenderArguments : SessionArguments {
     bool json = false;
 };
 
+struct DrawArguments : RenderArguments {
+    std::string output; ///< *.svg, *.png, *.pdf by Graphviz, *.dot; "" = DOT on standard output
+    bool times = false; ///< run the graph once and show how long each pass took
+};
+
 struct ReplayArguments : SessionArguments {
     std::string file;
     std::string backend; ///< "" = the one that was recorded; "all"
@@ -188,6 +193,7 @@ int newPass(const NewPassArguments& arguments, const Console& console);
 int compare(const CompareArguments& arguments, const Console& console);
 int doctor(const DoctorArguments& arguments, const Console& console);
 int render(const RenderArguments& arguments, const Console& console);
+int draw(const DrawArguments& arguments, const Console& console);
 int replay(const ReplayArguments& arguments, const Console& console);
 int selftest(const SelftestArguments& arguments, const ConformanceKit& kit, const Console& console);
 int demo(const DemoArguments& arguments, const Console& console);
