@@ -328,6 +328,19 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     tracers_app->add_flag("--json", tracers_arguments.json, "one JSON object on standard output");
     chosen(tracers_app, [&] { return benchTracers(tracers_arguments, console); });
 
+    BenchExecutorArguments executor_arguments;
+    CLI::App* executor_app = bench_app->add_subcommand(
+        "executor", "what a graph of many small passes costs besides its passes");
+    addSize(executor_app, "--size", executor_arguments.size, "image size (800x600)");
+    executor_app->add_option("--passes", executor_arguments.passes, "how many passes")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    executor_app->add_option("--repeats", executor_arguments.repeats, "frames; the median counts")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    executor_app->add_flag("--json", executor_arguments.json, "one JSON object on standard output");
+    chosen(executor_app, [&] { return benchExecutor(executor_arguments, console); });
+
     MeasureArguments measure_arguments;
     CLI::App* measure_app = app.add_subcommand(
         "measure", "how good a graph's error metrics are against the ray-traced truth");
@@ -380,7 +393,8 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
              &demo_arguments, &render_arguments, &check_arguments, &draw_arguments,
              &passes_arguments, &new_pass_arguments, &compare_arguments, &doctor_arguments,
              &replay_arguments, &selftest_arguments, &bench_arguments, &table1_arguments,
-             &tracers_arguments, &measure_arguments, &fit_arguments, &figure10_arguments})
+             &tracers_arguments, &executor_arguments, &measure_arguments, &fit_arguments,
+             &figure10_arguments})
         arguments->plugins = plugins;
     if (verbose)
         logger().set_level(spdlog::level::info);

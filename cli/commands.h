@@ -155,6 +155,13 @@ struct BenchTracersArguments : SessionArguments {
     bool json = false;
 };
 
+struct BenchExecutorArguments : SessionArguments {
+    uvec2 size{800, 600};
+    int passes = 100;
+    int repeats = 21; ///< frames; the median counts
+    bool json = false;
+};
+
 /// By what raster image and truth may differ while metrics are judged.
 enum class MeasuredEffect : std::uint8_t { kAll, kReflection, kShadow, kDof, kNone };
 
@@ -200,6 +207,7 @@ int demo(const DemoArguments& arguments, const Console& console);
 int benchParts(const BenchPartsArguments& arguments, const Console& console);
 int benchTable1(const BenchTable1Arguments& arguments, const Console& console);
 int benchTracers(const BenchTracersArguments& arguments, const Console& console);
+int benchExecutor(const BenchExecutorArguments& arguments, const Console& console);
 int benchFigure10(const MeasureArguments& arguments, const Console& console);
 int measure(const MeasureArguments& arguments, const Console& console);
 int fit(const FitArguments& arguments, const Console& console);
