@@ -2,7 +2,6 @@
 #include "hone/core/trace/trace_backend.h"
 
 #include "hone/core/error.h"
-#include "hone/core/trace/check/check_backend.h"
 #include "hone/core/trace/choice/backend_name.h"
 
 #include <algorithm>
@@ -39,22 +38,6 @@ bool TraceBackendRegistry::contains(std::string_view name) const {
 std::unique_ptr<TraceBackend>
 TraceBackendRegistry::wrap(std::unique_ptr<TraceBackend> backend) const {
     return wrapper_ ? wrapper_(std::move(backend)) : std::move(backend);
-}
-
-std::unique_ptr<TraceBackend> TraceBackendRegistry::createBare(std::string_view name,
-                                                               const Devices& devices) const {
-    if (const std::optional<CheckName> check = parseCheckName(name)) {
-        const auto inner = [&](std::string_view wanted) -> std::unique_ptr<TraceBackend> {
-            if (wanted.empty())
-                return nullptr;
-            return createBare(wanted == "auto" ? std::string_view(preferred()) : wanted, devices);
-        };
-        return makeCheckBackend(inner(check->first), inner(check->second), check_report_);
-    }
-    auto found =
-        std::ranges::find_if(entries_, [&](const Entry& entry) { return entry.name == name; });
-    HONE_ASSERT(found != entries_.end(), "no trace backend is called " + std::string(name));
-    return found->factory(devices);
 }
 
 } // namespace hone
