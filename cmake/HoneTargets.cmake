@@ -26,7 +26,9 @@ target_include_directories(hone_settings INTERFACE ${HONE_INCLUDE_DIR})
 # or floating-point traps, which keep square roots and selections from being vectorised; values stay as they are.
 target_compile_options(hone_settings INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math)
 # -Wrestrict: GCC 12 sees overlaps in std::string's own code (its bug 105651).
-target_compile_options(hone_settings INTERFACE -Wall -Wextra -Wshadow=local -Wconversion -Wpedantic -Wno-restrict)
+set(is_gcc $<CXX_COMPILER_ID:GNU>)
+target_compile_options(hone_settings INTERFACE -Wall -Wextra $<${is_gcc}:-Wshadow=local> -Wconversion -Wpedantic
+                                               $<${is_gcc}:-Wno-restrict>)
 if(HONE_ARCH)
     target_compile_options(hone_settings INTERFACE -march=${HONE_ARCH})
 endif()

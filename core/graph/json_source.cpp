@@ -111,9 +111,11 @@ public:
     TreeBuilder(const SourceText& source, Reporter& reporter, JsonValue& root)
         : source_(&source), reporter_(&reporter), root_(&root), walk_(source.text()) {}
 
-    bool null() override { return leaf({}); }
+    bool null() override { return leaf(empty(JsonValue::Kind::kNull)); }
     bool boolean(bool flag) override {
-        return leaf({.kind = JsonValue::Kind::kBool, .flag = flag});
+        JsonValue value = empty(JsonValue::Kind::kBool);
+        value.flag = flag;
+        return leaf(std::move(value));
     }
     bool number_integer(std::int64_t number) override {
         return addNumber(static_cast<double>(number));
@@ -123,7 +125,9 @@ public:
     }
     bool number_float(double number, const std::string&) override { return addNumber(number); }
     bool string(std::string& text) override {
-        return leaf({.kind = JsonValue::Kind::kString, .text = std::move(text)});
+        JsonValue value = empty(JsonValue::Kind::kString);
+        value.text = std::move(text);
+        return leaf(std::move(value));
     }
     bool binary(nlohmann::json::binary_t&) override { return false; }
 
@@ -179,8 +183,16 @@ private:
         std::unordered_map<std::string, TextSpan> keys;
     };
 
+    static JsonValue empty(JsonValue::Kind kind) {
+        JsonValue value;
+        value.kind = kind;
+        return value;
+    }
+
     bool addNumber(double number) {
-        return leaf({.kind = JsonValue::Kind::kNumber, .number = number});
+        JsonValue value = empty(JsonValue::Kind::kNumber);
+        value.number = number;
+        return leaf(std::move(value));
     }
 
     bool leaf(JsonValue value) {

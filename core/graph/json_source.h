@@ -20,7 +20,7 @@ struct JsonValue {
     double number = 0;
     std::string text{};
     std::vector<JsonValue> elements{};
-    std::vector<JsonMember> members{};
+    std::vector<JsonMember> members;
     TextSpan span{}; ///< objects and arrays: the opening bracket
 
     [[nodiscard]] const JsonMember* find(std::string_view key) const;

@@ -175,7 +175,7 @@ std::vector<PortType> graphTypes(const PassRegistry& registry) {
             result.push_back(port.type);
     }
     std::ranges::sort(result, {}, &PortType::name);
-    result.erase(std::ranges::unique(result).begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;
 }
 
