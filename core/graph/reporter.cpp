@@ -17,6 +17,8 @@ struct Excerpt {
 
 Excerpt excerptAround(std::string_view line, std::size_t column) {
     constexpr std::size_t kWidth = 160;
+    // The place may be the end of the line, which a carriage return puts one byte further.
+    column = std::min(column, line.size() + 1);
     if (line.size() <= kWidth)
         return {std::string(line), column};
     const std::size_t begin = column > kWidth / 4 ? column - kWidth / 4 : 0;

@@ -81,12 +81,21 @@ void expectGoodReports(const std::string& text, const Catalog& catalog) {
         EXPECT_EQ(diagnostic.code.size(), 5u);
         if (diagnostic.line != 0) {
             EXPECT_LE(diagnostic.column, desc.source->line(diagnostic.line).size() + 1) << text;
+            EXPECT_LE(diagnostic.source_column, diagnostic.source.size() + 1) << text;
         }
         EXPECT_FALSE(format(diagnostic).empty());
     }
     if (diagnostics.empty()) {
         EXPECT_FALSE(dump(graph).empty());
     }
+}
+
+TEST_F(GraphDescTest, PointsBelowTheExcerptWhereALineEndsWithACarriageReturn) {
+    std::vector<Diagnostic> diagnostics;
+    (void)parseGraph("x.json", "\r", diagnostics);
+    ASSERT_EQ(diagnostics.size(), 1u);
+    EXPECT_EQ(diagnostics[0].source, "");
+    EXPECT_EQ(diagnostics[0].source_column, 1u);
 }
 
 TEST_F(GraphDescTest, SurvivesEveryTruncation) {
