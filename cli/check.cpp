@@ -9,6 +9,29 @@
 #include <ostream>
 
 namespace hone::cli {
+namespace {
+
+/// line 0: the problem is not in a file, but in an override.
+nlohmann::ordered_json toJson(const Diagnostic& diagnostic) {
+    nlohmann::ordered_json notes = nlohmann::ordered_json::array();
+    for (const Note& note : diagnostic.notes)
+        notes.push_back({{"file", note.file},
+                         {"line", note.line},
+                         {"column", note.column},
+                         {"message", note.message}});
+    return {{"code", diagnostic.code},
+            {"severity", diagnostic.severity == Severity::kError ? "error" : "warning"},
+            {"file", diagnostic.file},
+            {"line", diagnostic.line},
+            {"column", diagnostic.column},
+            {"length", diagnostic.length},
+            {"pointer", diagnostic.pointer},
+            {"message", diagnostic.message},
+            {"hint", diagnostic.hint},
+            {"notes", notes}};
+}
+
+} // namespace
 
 int check(const CheckArguments& arguments, const Console& console) {
     const Session session(arguments.plugins);
@@ -22,15 +45,8 @@ int check(const CheckArguments& arguments, const Console& console) {
             compile(desc, session.catalog(), arguments.overrides, diagnostics);
         const auto errors = std::ranges::count_if(
             diagnostics, [](const Diagnostic& d) { return d.severity == Severity::kError; });
-        for (const Diagnostic& d : diagnostics)
-            all.push_back({{"code", d.code},
-                           {"severity", d.severity == Severity::kError ? "error" : "warning"},
-                           {"file", d.file},
-                           {"line", d.line},
-                           {"column", d.column},
-                           {"pointer", d.pointer},
-                           {"message", d.message},
-                           {"hint", d.hint}});
+        for (const Diagnostic& diagnostic : diagnostics)
+            all.push_back(toJson(diagnostic));
         console.err << format(diagnostics);
         if (errors > 0) {
             result = kBadInput;

@@ -200,6 +200,16 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
         draw_app->add_option(name, *argument, doc)->needs(times_option);
     chosen(draw_app, [&] { return draw(draw_arguments, console); });
 
+    ExplainArguments explain_arguments;
+    CLI::App* explain_app = app.add_subcommand(
+        "explain", "what a diagnostic's code means, or why a graph's pass or value is as it is");
+    explain_app->add_option("target", explain_arguments.target,
+                            "a code, like E0301 (list all), or a graph");
+    explain_app->add_option("value", explain_arguments.value, "of the graph: PASS, PASS.PORT");
+    addOverrides(explain_app, explain_arguments.overrides);
+    explain_app->add_flag("--json", explain_arguments.json, "one JSON object on standard output");
+    chosen(explain_app, [&] { return explain(explain_arguments, console); });
+
     PassesArguments passes_arguments;
     CLI::App* passes_app =
         app.add_subcommand("passes", "what passes there are, or one pass's ports and parameters");
@@ -391,10 +401,10 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     }
     for (SessionArguments* arguments : std::initializer_list<SessionArguments*>{
              &demo_arguments, &render_arguments, &check_arguments, &draw_arguments,
-             &passes_arguments, &new_pass_arguments, &compare_arguments, &doctor_arguments,
-             &replay_arguments, &selftest_arguments, &bench_arguments, &table1_arguments,
-             &tracers_arguments, &executor_arguments, &measure_arguments, &fit_arguments,
-             &figure10_arguments})
+             &explain_arguments, &passes_arguments, &new_pass_arguments, &compare_arguments,
+             &doctor_arguments, &replay_arguments, &selftest_arguments, &bench_arguments,
+             &table1_arguments, &tracers_arguments, &executor_arguments, &measure_arguments,
+             &fit_arguments, &figure10_arguments})
         arguments->plugins = plugins;
     if (verbose)
         logger().set_level(spdlog::level::info);

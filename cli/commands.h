@@ -52,6 +52,13 @@ struct CheckArguments : SessionArguments {
     bool json = false;
 };
 
+struct ExplainArguments : SessionArguments {
+    std::string target; ///< a diagnostic's code, or a graph; "" = list the codes
+    std::string value;  ///< of the graph: "pass", "pass.port"
+    Overrides overrides;
+    bool json = false;
+};
+
 struct PassesArguments : SessionArguments {
     std::string name; ///< "" = list
     bool json = false;
@@ -195,6 +202,7 @@ struct UpgradeArguments {
 
 int check(const CheckArguments& arguments, const Console& console);
 int upgrade(const UpgradeArguments& arguments, const Console& console);
+int explain(const ExplainArguments& arguments, const Console& console);
 int passes(const PassesArguments& arguments, const Console& console);
 int newPass(const NewPassArguments& arguments, const Console& console);
 int compare(const CompareArguments& arguments, const Console& console);

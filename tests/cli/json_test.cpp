@@ -36,13 +36,29 @@ TEST(Json, CheckListsEveryProblemWithItsPlace) {
     const nlohmann::json diagnostics = run.json()["diagnostics"];
     ASSERT_GE(diagnostics.size(), 2u);
     for (const nlohmann::json& diagnostic : diagnostics) {
-        expectKeys(diagnostic,
-                   {"code", "severity", "file", "line", "column", "pointer", "message", "hint"});
+        expectKeys(diagnostic, {"code", "severity", "file", "line", "column", "length", "pointer",
+                                "message", "hint", "notes"});
         EXPECT_EQ(diagnostic["file"], graph);
     }
     EXPECT_EQ(diagnostics[0]["line"], 5);
+    EXPECT_EQ(diagnostics[0]["column"], 37);
+    EXPECT_EQ(diagnostics[0]["length"], 7); // "sorrt" with its quotes
     EXPECT_EQ(diagnostics[0]["severity"], "error");
     EXPECT_EQ(diagnostics[0]["pointer"].get<std::string>().find("/passes/one"), 0u);
+}
+
+TEST(Json, CheckTellsTheOtherPlaces) {
+    const TemporaryFolder folder;
+    const std::string graph = folder.write("twice.json", "{ \"hone\": 1,\n  \"hone\": 1 }");
+    const nlohmann::json diagnostics = runHone({"check", graph, "--json"}).json()["diagnostics"];
+    ASSERT_FALSE(diagnostics.empty());
+    const auto twice =
+        std::ranges::find_if(diagnostics, [](const auto& d) { return d["code"] == "E0102"; });
+    ASSERT_NE(twice, diagnostics.end());
+    EXPECT_EQ((*twice)["line"], 2);
+    EXPECT_EQ(
+        (*twice)["notes"],
+        nlohmann::json::parse(R"([{"line": 1, "column": 3, "message": "the first is here"}])"));
 }
 
 TEST(Json, PassesDescribesPortsAndParameters) {

@@ -3,6 +3,7 @@
 // tests/bad_graphs/NAME.json with the whole report in NAME.expected. A first line
 // "// set: name=value" is an override.
 #include "hone/core/graph/compiled_graph.h"
+#include "hone/core/graph/diagnostic_codes.h"
 #include "hone/tests/support/test_passes.h"
 
 #include <gtest/gtest.h>
@@ -67,6 +68,25 @@ TEST_P(BadGraph, IsReportedAsExpected) {
 INSTANTIATE_TEST_SUITE_P(All, BadGraph, testing::ValuesIn(badGraphs()),
                          [](const auto& test) { return test.param; });
 
+/// What is written as "E0301" in core/graph, the table of codes itself apart.
+std::set<std::string> codesInTheSources() {
+    std::set<std::string> codes;
+    for (const fs::directory_entry& entry :
+         fs::directory_iterator(fs::path(HONE_SOURCE_DIR) / "core" / "graph")) {
+        if (entry.path().stem() == "diagnostic_codes")
+            continue;
+        const std::string text = read(entry.path());
+        for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; ++at) {
+            const std::string code = text.substr(at + 1, 5);
+            if (text.size() > at + 6 && text[at + 6] == '"' && (code[0] == 'E' || code[0] == 'W') &&
+                std::all_of(code.begin() + 1, code.end(),
+                            [](char c) { return c >= '0' && c <= '9'; }))
+                codes.insert(code);
+        }
+    }
+    return codes;
+}
+
 TEST(BadGraphs, CoverEveryCodeThatIsInTheSources) {
     std::set<std::string> covered;
     for (const std::string& name : badGraphs())
@@ -75,19 +95,33 @@ TEST(BadGraphs, CoverEveryCodeThatIsInTheSources) {
     // Limits whose graphs would be megabytes, and a missing file: graph_desc_test has those. A
     // program without shader compiler, a parameter set later: shader_test, switch_test.
     covered.insert({"E0104", "E0106", "E0313", "E0511"});
-    for (const fs::directory_entry& entry :
-         fs::directory_iterator(fs::path(HONE_SOURCE_DIR) / "core" / "graph")) {
-        const std::string text = read(entry.path());
-        for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; ++at) {
-            const std::string code = text.substr(at + 1, 5);
-            const bool is_code = text.size() > at + 6 && text[at + 6] == '"' &&
-                                 (code[0] == 'E' || code[0] == 'W') &&
-                                 std::all_of(code.begin() + 1, code.end(),
-                                             [](char c) { return c >= '0' && c <= '9'; });
-            if (is_code && !covered.contains(code))
-                ADD_FAILURE() << code << " in " << entry.path().filename();
-        }
+    for (const std::string& code : codesInTheSources())
+        EXPECT_TRUE(covered.contains(code)) << code;
+}
+
+TEST(DiagnosticCodes, AreThoseThatTheSourcesReport) {
+    std::set<std::string> explained;
+    for (const DiagnosticCode& code : diagnosticCodes())
+        explained.emplace(code.code);
+    EXPECT_EQ(explained, codesInTheSources());
+}
+
+TEST(DiagnosticCodes, AreInOrderAndSayWhatTheyMean) {
+    EXPECT_TRUE(std::ranges::is_sorted(diagnosticCodes(), {}, &DiagnosticCode::code));
+    for (const DiagnosticCode& code : diagnosticCodes()) {
+        EXPECT_EQ(code.code[0], code.severity == Severity::kError ? 'E' : 'W');
+        EXPECT_FALSE(code.title.empty()) << code.code;
+        EXPECT_TRUE(code.meaning.ends_with('.')) << code.code;
     }
+}
+
+TEST(DiagnosticCodes, HaveTheSeverityThatIsReported) {
+    for (const std::string& name : badGraphs())
+        for (const Diagnostic& diagnostic : check(name)) {
+            const DiagnosticCode* code = findDiagnosticCode(diagnostic.code);
+            ASSERT_NE(code, nullptr) << diagnostic.code;
+            EXPECT_EQ(code->severity, diagnostic.severity) << diagnostic.code;
+        }
 }
 
 } // namespace
