@@ -134,6 +134,7 @@ private:
             names.push_back("$" + known);
         c_->reporter.error("E0505", place, "the graph has no parameter \"$" + name + "\"",
                            suggest("$" + name, names, "it has"));
+        markMeant(graph, nearest("$" + name, names));
         return nullptr;
     }
 
@@ -153,10 +154,35 @@ private:
             value = readParam(decl, text.value, c_->catalog, whose);
         }
         if (const ParamProblem* problem = std::get_if<ParamProblem>(&value)) {
-            report(*problem, text.place);
+            report(withReference(*problem, scope, text, decl), text.place);
             return fallback;
         }
         return std::get<ParamValue>(value);
+    }
+
+    /// A word that is no value may be a graph parameter's name without its "$".
+    ParamProblem withReference(ParamProblem problem, ScopeId scope, const ParamText& text,
+                               const ParamDecl& decl) {
+        const std::string* word = std::get_if<std::string>(&text.value);
+        if (word == nullptr || text.isReference())
+            return problem;
+        const Scope& graph = c_->scopes[c_->graphOf(scope)];
+        std::vector<std::string> meant;
+        if (decl.type == ParamType::kEnum)
+            meant = choicesOf(decl, c_->catalog);
+        for (const std::string& known : namesOf(graph))
+            meant.push_back("$" + known);
+        if (const std::string near = nearest(*word, meant); near.starts_with('$')) {
+            problem.hint = "did you mean \"" + near + "\"?";
+            markMeant(graph, near);
+        }
+        return problem;
+    }
+
+    /// What a mistake was meant to read is not unread: one report is enough. `reference`: "$name".
+    void markMeant(const Scope& graph, const std::string& reference) {
+        if (!reference.empty())
+            read_.insert(graph.params.at(reference.substr(1)));
     }
 
     void bindPass(NodeId id) {
@@ -249,7 +275,7 @@ private:
             // Not as a float: rays are counted beyond its 24 bits.
             const auto value = readParam(decl, text.value, c_->catalog, whose);
             if (const ParamProblem* problem = std::get_if<ParamProblem>(&value)) {
-                report(*problem, text.place);
+                report(withReference(*problem, scope, text, decl), text.place);
                 return 1; // bounded: one report is enough
             }
             return std::get<double>(text.value);

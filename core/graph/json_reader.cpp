@@ -18,6 +18,8 @@ std::string JsonReader::text(const JsonNode& node, const std::string& what) cons
 }
 
 Word JsonReader::word(const JsonNode& node, const std::string& what) const {
+    if (node.value->kind == JsonValue::Kind::kString && node.value->text.empty())
+        reporter_->error("E0202", node.place(), what + " must not be empty");
     return {text(node, what), node.place()};
 }
 
@@ -40,6 +42,19 @@ void JsonReader::unknownKey(const JsonNode& node, const JsonMember& member,
                             const std::vector<std::string>& known, const std::string& what) const {
     reporter_->error("E0201", node.keyPlace(member), what + " has no key \"" + member.key + "\"",
                      suggest(member.key, known, "it has"));
+}
+
+const JsonMember* JsonReader::misspelt(const JsonNode& node, const std::string& key,
+                                       const std::vector<std::string>& known,
+                                       const std::string& what) const {
+    for (const JsonMember& member : node.value->members) {
+        if (std::ranges::find(known, member.key) != known.end() ||
+            nearest(member.key, known) != key)
+            continue;
+        unknownKey(node, member, known, what);
+        return &member;
+    }
+    return nullptr;
 }
 
 } // namespace hone

@@ -35,6 +35,7 @@ public:
 
     bool expect(const JsonNode& node, JsonValue::Kind kind, const std::string& what) const;
     [[nodiscard]] std::string text(const JsonNode& node, const std::string& what) const;
+    /// A text that names something, and so must not be empty.
     [[nodiscard]] Word word(const JsonNode& node, const std::string& what) const;
     /// A name given in the file: a word that needs no quoting in references.
     [[nodiscard]] Word name(const JsonNode& parent, const JsonMember& member,
@@ -42,6 +43,11 @@ public:
     /// Reports keys of an object that are not in `known`.
     void unknownKey(const JsonNode& node, const JsonMember& member,
                     const std::vector<std::string>& known, const std::string& what) const;
+    /// The member whose key was meant to be `key`, which is not there; reported. Null if there is
+    /// none.
+    const JsonMember* misspelt(const JsonNode& node, const std::string& key,
+                               const std::vector<std::string>& known,
+                               const std::string& what) const;
 
     /// Calls `visit` for every member; keys that are not in `known` are errors.
     template <class Visit>

@@ -16,6 +16,9 @@ using Kind = JsonValue::Kind;
 
 constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
 
+const std::vector<std::string> kGraphKeys{"$schema", "hone",   "name",   "doc",     "plugins",
+                                          "params",  "inputs", "passes", "outputs", "meta"};
+
 /// Reads one graph, without the files that it names.
 class GraphReader {
 public:
@@ -24,28 +27,25 @@ public:
     void read(const JsonNode& root) {
         graph_->is_readable = true;
         graph_->outputs_place = root.place();
-        reader_.forEach(root,
-                        {"$schema", "hone", "name", "doc", "plugins", "params", "inputs", "passes",
-                         "outputs", "meta"},
-                        "a graph", [&](const JsonMember& member) {
-                            const JsonNode node = root.child(member);
-                            if (member.key == "name")
-                                graph_->name = reader_.text(node, "the graph's name");
-                            else if (member.key == "doc")
-                                graph_->doc = reader_.text(node, "the graph's documentation");
-                            else if (member.key == "$schema")
-                                (void)reader_.text(node, "the schema's name");
-                            else if (member.key == "plugins")
-                                readPlugins(node);
-                            else if (member.key == "params")
-                                readParams(node);
-                            else if (member.key == "inputs")
-                                readInputs(node);
-                            else if (member.key == "passes")
-                                readPasses(reader_, counts_, node, graph_->passes);
-                            else if (member.key == "outputs")
-                                readOutputs(node, root.keyPlace(member));
-                        });
+        reader_.forEach(root, kGraphKeys, "a graph", [&](const JsonMember& member) {
+            const JsonNode node = root.child(member);
+            if (member.key == "name")
+                graph_->name = reader_.text(node, "the graph's name");
+            else if (member.key == "doc")
+                graph_->doc = reader_.text(node, "the graph's documentation");
+            else if (member.key == "$schema")
+                (void)reader_.text(node, "the schema's name");
+            else if (member.key == "plugins")
+                readPlugins(node);
+            else if (member.key == "params")
+                readParams(node);
+            else if (member.key == "inputs")
+                readInputs(node);
+            else if (member.key == "passes")
+                readPasses(reader_, counts_, node, graph_->passes);
+            else if (member.key == "outputs")
+                readOutputs(node, root.keyPlace(member));
+        });
     }
 
 private:
@@ -268,6 +268,8 @@ std::optional<int> readVersion(const JsonReader& reader, const JsonNode& root) {
     const JsonMember* member = root.value->find("hone");
     const std::string now = std::to_string(kGraphVersion);
     if (member == nullptr) {
+        if (reader.misspelt(root, "hone", kGraphKeys, "a graph") != nullptr)
+            return std::nullopt;
         reader.reporter().error("E0203", root.place(), "the graph does not say its version",
                                 "add \"hone\": " + now);
         return std::nullopt;

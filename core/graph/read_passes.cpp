@@ -248,7 +248,7 @@ private:
         if (counts_->edges > kMaxEdges)
             return edge;
         if (node.value->kind == Kind::kString) {
-            edge.from.text = node.value->text;
+            edge.from = reader_->word(node, "an edge's source");
         } else if (node.value->kind == Kind::kObject) {
             readEdgeObject(node, use, edge);
         } else {
@@ -265,8 +265,14 @@ private:
     void readEdgeObject(const JsonNode& node, EdgeUse use, EdgeDesc& edge) {
         const bool may_be_zero = use == EdgeUse::kCarry || use == EdgeUse::kInitial;
         const bool may_be_history = use == EdgeUse::kInput || use == EdgeUse::kCarry;
+        const bool has_source = node.value->find("from") != nullptr ||
+                                (may_be_zero && node.value->find("zero") != nullptr);
+        // Keys that are not known are the edge's parameters: a misspelt "from" would be one.
+        const JsonMember* from = has_source || use != EdgeUse::kInput
+                                     ? nullptr
+                                     : reader_->misspelt(node, "from", {"from"}, "this edge");
         for (const JsonMember& member : node.value->members) {
-            if (member.key == "from") {
+            if (member.key == "from" || &member == from) {
                 edge.from = reader_->word(node.child(member), "an edge's source");
             } else if (may_be_zero && member.key == "zero") {
                 edge.is_zero = true;
@@ -285,7 +291,11 @@ private:
                                     use == EdgeUse::kCarry ? "a carried value" : "this edge");
             }
         }
-        if (node.value->find("from") == nullptr && !edge.is_zero)
+        if (const JsonMember* zero = node.value->find("zero");
+            may_be_zero && zero != nullptr && node.value->find("from") != nullptr)
+            error("E0201", node.keyPlace(*zero), "\"zero\" and \"from\" exclude each other",
+                  "remove one of them");
+        if (!has_source && from == nullptr)
             error("E0203", node.place(), "this edge does not say where it comes from",
                   may_be_zero ? "add \"from\": \"pass.port\" or \"zero\": \"Type\""
                               : "add \"from\": \"pass.port\"");

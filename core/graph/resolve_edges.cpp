@@ -100,7 +100,8 @@ void resolveStopRules(Compilation& c, NodeId id) {
         if (rule.kind == StopRule::Kind::kBelow) {
             rule.value = inside.find(stop.of);
         } else if (rule.kind == StopRule::Kind::kEmpty) {
-            if (const std::string* list = std::get_if<std::string>(&stop.rule.value))
+            const std::string* list = std::get_if<std::string>(&stop.rule.value);
+            if (list != nullptr && !list->empty())
                 rule.value = inside.find(Word{*list, stop.rule.place});
             else
                 c.reporter.error("E0202", stop.rule.place, "\"empty\" needs the name of a list",

@@ -156,9 +156,10 @@ ValueId Resolver::findIn(const Word& from, NodeId id, std::string_view rest) {
                                       : "write \"" + inner + "\" for this iteration's");
         return kNoId;
     }
+    const bool is_last = rest.find('.') == std::string_view::npos;
     const std::string step(takeStep(rest));
     const std::string name = node.name + "." + step;
-    if (rest.empty())
+    if (is_last)
         for (const PlannedOutput& output : node.outputs)
             if (c_->graph.values[output.value].name == name)
                 return output.value;
@@ -208,24 +209,41 @@ ValueId Resolver::findInGraph(const Word& from, ScopeId graph, std::string_view 
 
 void Resolver::reportUnknownPass(const Word& from, const std::string& first,
                                  std::string_view port) {
-    std::vector<std::string> passes;
-    std::vector<std::string> outputs;
     const std::string rest = port.empty() ? "" : "." + std::string(port);
-    const auto add = [&](const std::string& name) {
-        passes.push_back(name);
-        outputs.push_back(name + rest);
-    };
+    std::vector<std::string> passes;
+    std::vector<std::string> sources;
     for (ScopeId id = scope_;; id = c_->scopes[id].parent) {
         const Scope& scope = c_->scopes[id];
-        for (const auto& [name, node] : scope.nodes)
-            if (!c_->isInside(c_->scopes[scope_].loop, node))
-                add(name);
-        for (const auto& [name, graph] : scope.graphs)
-            add(name);
-        if (scope.graph != nullptr)
-            break;
+        for (const auto& [name, node_id] : scope.nodes) {
+            if (c_->isInside(c_->scopes[scope_].loop, node_id))
+                continue;
+            passes.push_back(name);
+            const PlannedNode& node = c_->graph.nodes[node_id];
+            for (const PlannedOutput& output : node.outputs)
+                sources.push_back(name +
+                                  c_->graph.values[output.value].name.substr(node.name.size()));
+            if (node.type == nullptr) // a loop, whose passes have outputs, too; or not known
+                sources.push_back(name + rest);
+        }
+        for (const auto& [name, graph] : scope.graphs) {
+            passes.push_back(name);
+            sources.push_back(name + rest);
+            if (graph != kNoId)
+                for (const OutputDesc& output : c_->scopes[graph].graph->outputs)
+                    sources.push_back(name + "." + output.name.text);
+        }
+        // The sign before a name is forgotten as easily as a letter.
+        if (scope.graph == nullptr) {
+            for (const PlannedCarry& carry :
+                 c_->graph.loops[c_->graph.nodes[scope.loop].loop].carries)
+                sources.push_back("~" + carry.name);
+            continue;
+        }
+        for (const GraphInputDesc& input : scope.graph->inputs)
+            sources.push_back("$" + input.name.text);
+        break;
     }
-    const std::string near = nearest(first + rest, outputs);
+    const std::string near = nearest(from.text, sources);
     c_->reporter.error("E0303", from.place, "there is no pass \"" + first + "\"",
                        near.empty() ? suggest(first, passes, "the passes here are")
                                     : "did you mean \"" + near + "\"?");
