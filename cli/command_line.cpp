@@ -210,6 +210,11 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     explain_app->add_flag("--json", explain_arguments.json, "one JSON object on standard output");
     chosen(explain_app, [&] { return explain(explain_arguments, console); });
 
+    SessionArguments schema_arguments;
+    CLI::App* schema_app = app.add_subcommand(
+        "schema", "the JSON Schema of graph files, with the passes of plug-ins: for editors");
+    chosen(schema_app, [&] { return schema(schema_arguments, console); });
+
     PassesArguments passes_arguments;
     CLI::App* passes_app =
         app.add_subcommand("passes", "what passes there are, or one pass's ports and parameters");

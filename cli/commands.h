@@ -203,6 +203,8 @@ struct UpgradeArguments {
 int check(const CheckArguments& arguments, const Console& console);
 int upgrade(const UpgradeArguments& arguments, const Console& console);
 int explain(const ExplainArguments& arguments, const Console& console);
+/// Prints the JSON Schema of graph files.
+int schema(const SessionArguments& arguments, const Console& console);
 int passes(const PassesArguments& arguments, const Console& console);
 int newPass(const NewPassArguments& arguments, const Console& console);
 int compare(const CompareArguments& arguments, const Console& console);
