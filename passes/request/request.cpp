@@ -17,11 +17,13 @@
 // in   order  PixelList (optional): whom to trace first; without it all pixels in tile order
 // in   state  Cursor (optional): how many batches were taken (with accumulation: the place in the
 //                                order that is next); without it begins at the first
-// in   error  Error (optional): only tells counter worst_expect_bits, for progress and curves
+// in   error  Error (optional): only tells `worst` and the counter
 // in   counts        SampleCounts (optional): samples of each pixel's visits; needs accumulation
 // in   accumulation  Accumulation (optional): what was traced so far
 // out  requests  RequestList: (pixel, first sample, sample count)
 // out  state  Cursor, in place
+// out  worst  Scalar: greatest expected error of the batch, for a loop's stop rule "below"; 0 of an
+//             empty one; without `error` as great as can be, so that it is below nothing
 // params  batch        pixels in a batch (8192); 0 = all
 //         samples      samples per pixel when finished (1)
 //         per_visit    samples per pixel in one batch; 0 = all of them at once
@@ -44,6 +46,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 namespace hone {
 namespace {
@@ -63,10 +66,12 @@ public:
             requestVisit(context, tiles, batch, out);
 
         context.counters->add("pixels", out.count);
-        if (out.count > 0 && context.has("error"))
-            context.counters->set(
-                "worst_expect_bits",
-                std::bit_cast<uint>(worstExpect(context.in("error").as<vec2>(), out.as<uvec3>())));
+        float& worst = context.out("worst").as<float>().front();
+        worst = out.count == 0 ? 0.0f : std::numeric_limits<float>::max();
+        if (out.count > 0 && context.has("error")) {
+            worst = worstExpect(context.in("error").as<vec2>(), out.as<uvec3>());
+            context.counters->set("worst_expect_bits", std::bit_cast<uint>(worst));
+        }
     }
 
 private:
@@ -234,13 +239,15 @@ PassType requestPass() {
     return PassType("request", "Takes the next batch of pixels to trace")
         .inOptional("order", types::kPixelList, "whom to trace first; none: all, in tile order")
         .inOptional("state", types::kCursor, "how far the order was requested; none: begins anew")
-        .inOptional("error", types::kError, "what progress shows; changes no request")
+        .inOptional("error", types::kError, "what \"worst\" and progress tell; changes no request")
         .inOptional("counts", types::kSampleCounts, "samples of each pixel's visits")
         .inOptional("accumulation", types::kAccumulation, "what was traced so far")
         .out("requests", types::kRequestList, "the batch, in tile order; empty when all is done",
              batchSize)
         .outInPlace("state", types::kCursor, "state", "a batch further",
                     [](const SizeQuery&) { return std::size_t{1}; })
+        .out("worst", types::kScalar, "greatest expected error of the batch",
+             [](const SizeQuery&) { return std::size_t{1}; })
         .param("batch", 8192u, {.min = 0, .max = {}}, "pixels in a batch; 0 = all")
         .param("samples", 1u, {.min = 1, .max = {}}, "samples per pixel when finished")
         .param("per_visit", 0u, {.min = 0, .max = {}},

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <random>
 
@@ -191,6 +192,26 @@ TEST(Request, ListsTheSameForBothStrategiesOfSort) {
         lists.push_back(allLists(run));
     }
     EXPECT_EQ(lists[0], lists[1]);
+}
+
+TEST(Request, TellsTheWorstOfItsBatch) {
+    PassRun run(requestPass());
+    run.extent({4, 1}).param("batch", 2u);
+    run.list<uint>("order", {3, 0, 2, 1}).list<uint>("state", {0});
+    run.plane<vec2>("error", {{0.5f, 9}, {0.125f, 9}, {0.25f, 9}, {0.75f, 9}});
+    std::vector<float> worst;
+    for (int i = 0; i < 3; ++i) {
+        run.execute();
+        worst.push_back(run.output<float>("worst").front());
+        run.list<uint>("state", run.output<uint>("state"));
+    }
+    EXPECT_EQ(worst, (std::vector<float>{0.75f, 0.25f, 0})) << "3 and 0, 2 and 1, nothing";
+}
+
+TEST(Request, IsBelowNoLimitWhereNobodyKnowsTheErrors) {
+    PassRun run(requestPass());
+    run.extent({4, 1}).execute();
+    EXPECT_EQ(run.output<float>("worst").front(), std::numeric_limits<float>::max());
 }
 
 } // namespace
