@@ -32,11 +32,11 @@ TEST(ExplainCode, TakesTheCodeAsPeopleWriteIt) {
 }
 
 TEST(ExplainCode, UnknownCodeEndsWith2AndTheNearest) {
-    const CommandRun run = runHone({"explain", "E0310"});
+    const CommandRun run = runHone({"explain", "E0319"});
     EXPECT_EQ(run.code, kUsage);
     EXPECT_EQ(run.out, "");
-    EXPECT_NE(run.err.find("there is no code \"E0310\"; did you mean E0301 (there is no such pass "
-                           "type)?"),
+    EXPECT_NE(run.err.find("there is no code \"E0319\"; did you mean E0309 (a plug-in does not "
+                           "have what the graph takes from it)?"),
               std::string::npos)
         << run.err;
 }
