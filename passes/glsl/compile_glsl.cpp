@@ -9,6 +9,7 @@
 #include <spirv-tools/optimizer.hpp>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -24,6 +25,7 @@ namespace hone {
 namespace {
 
 constexpr rlim_t kMaxSeconds = 3;             ///< of processor time
+constexpr int kMaxWaitMs = 30'000;            ///< without a word, on a busy machine
 constexpr rlim_t kMaxBytes = rlim_t{1} << 30; ///< beyond what the process has
 constexpr std::size_t kMaxAnswer = std::size_t{4} << 20;
 
@@ -133,6 +135,9 @@ rlim_t bytesMapped() {
 std::string whyItEnded(int status) {
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU)
         return "it takes more than " + std::to_string(kMaxSeconds) + " s to compile";
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+        return "it took more than " + std::to_string(kMaxWaitMs / 1000) +
+               " s to compile, or somebody ended the compiler";
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGSEGV)
         return "it is nested too deeply to be compiled";
     if (WIFSIGNALED(status))
@@ -157,6 +162,9 @@ CompiledGlsl compileGlsl(const std::string& source) {
     if (child > 0) {
         char block[1 << 14];
         for (ssize_t count = 1; count != 0 && bytes.size() <= kMaxAnswer;) {
+            pollfd answers{.fd = ends[0], .events = POLLIN, .revents = 0};
+            if (poll(&answers, 1, kMaxWaitMs) == 0)
+                kill(child, SIGKILL);
             count = read(ends[0], block, sizeof block);
             if (count > 0)
                 bytes.append(block, static_cast<std::size_t>(count));
