@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// graphs/README.md teaches by whole files. Each is what stands between ```json and ```, under a
-// line that names it; they are saved beside each other, as a reader would.
+// graphs/README.md teaches by whole files. Each is what stands between ```json (or ```glsl) and
+// ```, under a line that names it; they are saved beside each other, as a reader would.
 #include "hone/backends/backends.h"
 #include "hone/core/graph/compiled_graph.h"
+#include "hone/passes/glsl/glsl.h"
 #include "hone/passes/passes.h"
 #include "hone/tests/support/temporary_folder.h"
 
@@ -20,11 +21,11 @@ struct Example {
     std::string text;
 };
 
-std::vector<Example> examples() {
+std::vector<Example> examples(const std::string& language) {
     std::ifstream file(HONE_SOURCE_DIR "/graphs/README.md");
     const std::string readme((std::istreambuf_iterator<char>(file)), {});
     std::vector<Example> found;
-    const std::string fence = "```json\n";
+    const std::string fence = "```" + language + "\n";
     for (std::size_t at = readme.find(fence); at != std::string::npos;
          at = readme.find(fence, at + 1)) {
         const std::size_t name_end = readme.rfind('`', at - 1);
@@ -41,8 +42,11 @@ TEST(GraphsReadme, HasOnlyExamplesWithoutAnyProblem) {
     registerPasses(passes);
     TraceBackendRegistry tracers;
     registerTraceBackends(tracers);
+    const ShaderCompiler shaders = glslCompiler(passes);
     const test::TemporaryFolder folder;
-    const std::vector<Example> all = examples();
+    for (const Example& shader : examples("glsl"))
+        static_cast<void>(folder.write(shader.name, shader.text));
+    const std::vector<Example> all = examples("json");
     EXPECT_GE(all.size(), 5u);
     for (const Example& example : all) {
         ASSERT_TRUE(example.name.ends_with(".json")) << example.name;
@@ -51,7 +55,7 @@ TEST(GraphsReadme, HasOnlyExamplesWithoutAnyProblem) {
     for (const Example& example : all) {
         std::vector<Diagnostic> diagnostics;
         const GraphDesc desc = parseGraphFile(folder.path(example.name), diagnostics);
-        const CompiledGraph graph = compile(desc, {&passes, &tracers}, {}, diagnostics);
+        const CompiledGraph graph = compile(desc, {&passes, &tracers, &shaders}, {}, diagnostics);
         EXPECT_TRUE(diagnostics.empty()) << format(diagnostics);
         for (const PlannedNode& node : graph.nodes)
             EXPECT_EQ(node.culled, "") << example.name << ": " << node.name;
