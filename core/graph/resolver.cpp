@@ -53,9 +53,14 @@ ValueId Resolver::findHistory(const EdgeDesc& edge) {
                            "what the last iteration made is carried: \"carry\" and \"next\"");
         return kNoId;
     }
-    for (const PlannedHistory& known : c_->graph.histories)
-        if (known.source == source && known.initial == initial)
+    for (std::size_t i = 0; i < c_->histories.size(); ++i) {
+        const PlannedHistory& known = c_->graph.histories[i];
+        const EdgeDesc& begin = *c_->histories[i].desc->initial;
+        const bool is_zero_alike =
+            !edge.initial->is_zero || begin.from.text == edge.initial->from.text; // of one type
+        if (known.source == source && known.initial == initial && is_zero_alike)
             return known.value;
+    }
     const ValueId value = static_cast<ValueId>(c_->graph.values.size());
     PlannedValue& history = c_->graph.values.emplace_back();
     history.name = c_->graph.values[source].name + "@-1";
