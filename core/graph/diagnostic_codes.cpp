@@ -15,17 +15,16 @@ constexpr Severity kWarning = Severity::kWarning;
 constexpr DiagnosticCode kCodes[] = {
     {"E0101", kError, "the file is not valid JSON",
      "A graph file is JSON, in which // and /* */ comments are allowed. The place is where the "
-     "text "
-     "stopped making sense; what is wrong often stands just before it: a missing comma, a comma "
-     "after the last element, a quote that was not closed.",
+     "text stopped making sense; what is wrong often stands just before it: a missing comma, a "
+     "comma after the last element, a quote that was not closed.",
      R"({ "type": "sort", })", R"({ "type": "sort" })"},
     {"E0102", kError, "a key is written twice",
-     "One object has two members of the same name, and only one of them could count. Two passes of "
-     "one name are this, too. Remove or rename one; the report shows both places.",
+     "One object has two members of the same name, and only one of them could count. Two passes "
+     "of one name are this, too. Remove or rename one; the report shows both places.",
      R"("params": { "batch": 64, "batch": 128 })", R"("params": { "batch": 128 })"},
     {"E0103", kError, "the file is nested too deeply",
-     "Objects and lists may be nested 64 levels deep. No graph needs a tenth of that; the file was "
-     "probably made by a program that went wrong.",
+     "Objects and lists may be nested 64 levels deep. No graph needs a tenth of that; the file "
+     "was probably made by a program that went wrong.",
      "", ""},
     {"E0104", kError, "the graph is too large",
      "A file may have 16 MiB and 262144 values; a graph may have 4096 passes and 16384 edges. The "
@@ -44,8 +43,7 @@ constexpr DiagnosticCode kCodes[] = {
      R"("sort": { "type": "sort", "in": { "error": "combine.error" } })"},
     {"E0202", kError, "a value is of the wrong kind",
      "Here a string, a number, a list or an object is needed, and something else is written; or a "
-     "string that names something is empty. The "
-     "report says which of them was expected.",
+     "string that names something is empty. The report says which of them was expected.",
      R"("in": [ "raster.color" ])", R"("in": { "color": "raster.color" })"},
     {"E0203", kError, "something that must be written is missing",
      "A graph needs its version (\"hone\"), a pass needs a \"type\" or a \"loop\", an edge needs "
@@ -57,7 +55,8 @@ constexpr DiagnosticCode kCodes[] = {
      "needs a newer hone.",
      R"("hone": 1000)", R"("hone": 2)"},
     {"E0205", kError, "this cannot be a name",
-     "Names are made of letters, digits, \"_\" and \"-\", because \".\", \"$\" and \"~\" have a "
+     "Names are made of letters, digits, \"_\" and \"-\", because \".\", \"$\", \"~\" and \"@\" "
+     "have a "
      "meaning where a name is used. \"stats\" is taken in loops: it is what every loop says about "
      "its iterations.",
      R"("my.pass": { "type": "sort" })", R"("my_pass": { "type": "sort" })"},
@@ -78,13 +77,11 @@ constexpr DiagnosticCode kCodes[] = {
      R"({ "type": "sort", "in": { "error": "combine.error" } })"},
     {"E0303", kError, "there is no such pass",
      "An edge names a pass that is neither in this loop nor outside it. \"a.b\" is output b of "
-     "pass "
-     "a, \"$x\" an input of the graph, \"~x\" a carried value.",
+     "pass a, \"$x\" an input of the graph, \"~x\" a carried value.",
      R"("in": { "error": "combin.error" })", R"("in": { "error": "combine.error" })"},
     {"E0304", kError, "the pass has no such output",
      "An edge comes from an output that a pass's type declares, or from a value that a loop "
-     "carries; "
-     "hone passes TYPE lists them. A loop also has the output \"stats\".",
+     "carries; hone passes TYPE lists them. A loop also has the output \"stats\".",
      R"("in": { "error": "combine" })", R"("in": { "error": "combine.error" })"},
     {"E0305", kError, "the graph has no such input",
      "\"$name\" on an edge is an input of the graph, declared under \"inputs\". Parameters are "
@@ -97,18 +94,17 @@ constexpr DiagnosticCode kCodes[] = {
      R"("outputs": { "color": "~image" })", R"("outputs": { "color": "refine.image" })"},
     {"E0307", kError, "graph inputs are not of this type",
      "What is given to a graph from outside is a \"scene\", a \"camera\" or an \"extent\" (the "
-     "size "
-     "of the image in pixels).",
+     "size of the image in pixels).",
      R"("inputs": { "scene": "gltf" })", R"("inputs": { "scene": "scene" })"},
     {"E0308", kError, "a plug-in that the graph needs is not loaded",
-     "The graph takes pass types from it. Name the plug-in's file with --plugin, or put its folder "
-     "into HONE_PLUGIN_PATH. Graphs themselves never load code.",
+     "The graph takes pass types from it. Name the plug-in's file with --plugin, or put its "
+     "folder into HONE_PLUGIN_PATH. Graphs themselves never load code.",
      "", ""},
     {"E0309", kError, "a plug-in does not have what the graph takes from it",
      "The plug-in is loaded, but another version of it: hone passes lists what it has.", "", ""},
     {"E0310", kError, "a file that the graph names cannot be read",
-     "A graph or shader that a pass is made of is looked for in the folder of the graph that names "
-     "it. Links that lead out of that folder are not followed.",
+     "A graph or shader that a pass is made of is looked for in the folder of the graph that "
+     "names it. Links that lead out of that folder are not followed.",
      "", ""},
     {"E0311", kError, "a file must lie beside the graph",
      "A graph may name files of its own folder and of folders in it, with no \"..\" and no "
@@ -141,8 +137,8 @@ constexpr DiagnosticCode kCodes[] = {
      "A list of edges may have 8. Join some of them in a pass before this one.", "", ""},
     {"E0405", kError, "passes wait for each other",
      "Each of these passes needs what another of them writes, so none can be first. The report "
-     "prints the circle. To repeat work, put the passes into a \"loop\" and carry a value from one "
-     "iteration to the next.",
+     "prints the circle. To repeat work, put the passes into a \"loop\" and carry a value from "
+     "one iteration to the next.",
      R"("a": { "type": "add", "in": { "color": "b.result" } },
 "b": { "type": "add", "in": { "color": "a.result" } })",
      ""},
@@ -151,29 +147,28 @@ constexpr DiagnosticCode kCodes[] = {
      R"("color": { "from": "raster.depth", "type": "Radiance" })",
      R"("color": { "from": "raster.color", "type": "Radiance" })"},
     {"E0501", kError, "there is no such parameter",
-     "The pass's type declares which parameters it has, and its input which an edge may have; hone "
-     "passes TYPE lists both.",
+     "The pass's type declares which parameters it has, and its input which an edge may have; "
+     "hone passes TYPE lists both.",
      R"("params": { "metrik": 4 })", R"("params": { "metric": 4 })"},
     {"E0502", kError, "a parameter's value is of the wrong type",
-     "A bool is true or false, a uint is a whole number from 0 to 4294967295, a float is a number, "
-     "an enum is one of its choices as a string. Numbers and bools are written without quotes.",
+     "A bool is true or false, a uint is a whole number from 0 to 4294967295, a float is a "
+     "number, an enum is one of its choices as a string. Numbers and bools are written without "
+     "quotes.",
      R"("params": { "batch": "64" })", R"("params": { "batch": 64 })"},
     {"E0503", kError, "a parameter is out of range",
      "The declaration has a least and a greatest value, both allowed; hone passes TYPE prints "
-     "them. "
-     "A value that comes from a graph parameter must fit the pass, too: give the graph parameter "
-     "the same \"min\" and \"max\".",
+     "them. A value that comes from a graph parameter must fit the pass, too: give the graph "
+     "parameter the same \"min\" and \"max\".",
      R"("params": { "metric": 9 })", R"("params": { "metric": 4 })"},
     {"E0504", kError, "an enum has no such choice", "Choices are written as strings; case counts.",
      R"("params": { "mode": "maximum" })", R"("params": { "mode": "max" })"},
     {"E0505", kError, "the graph has no such parameter",
      "\"$name\" under \"params\" takes the value of a parameter that the graph declares. Declare "
-     "it "
-     "under the graph's \"params\", or correct the name.",
+     "it under the graph's \"params\", or correct the name.",
      R"("params": { "batch": "$bach" })", R"("params": { "batch": "$batch" })"},
     {"E0506", kError, "nothing reads a parameter",
-     "Setting it would do nothing, which whoever sets it would not expect. Use it as \"$name\", or "
-     "remove its declaration.",
+     "Setting it would do nothing, which whoever sets it would not expect. Use it as \"$name\", "
+     "or remove its declaration.",
      "", ""},
     {"E0507", kError, "a parameter's declaration contradicts itself",
      "Its \"type\" is bool, uint, float or enum; \"min\" is not above \"max\"; choices are listed "
@@ -181,8 +176,8 @@ constexpr DiagnosticCode kCodes[] = {
      R"("gain": { "type": "double", "default": 1 })",
      R"("gain": { "type": "float", "default": 1 })"},
     {"E0508", kError, "a graph parameter is of another type than what it feeds",
-     "A graph's parameter and the pass's parameter must have the same type; only a uint may feed a "
-     "float.",
+     "A graph's parameter and the pass's parameter must have the same type; only a uint may feed "
+     "a float.",
      "", ""},
     {"E0509", kError, "what an override sets does not exist",
      "--set takes a parameter of the graph (batch=64) or of a pass, with the loops around it "
@@ -200,8 +195,8 @@ constexpr DiagnosticCode kCodes[] = {
      "A bool switches by itself; an enum by a list of the choices with which the pass runs.",
      R"("when": "$mode")", R"("when": { "$mode": [ "all", "shadows" ] })"},
     {"E0601", kError, "a loop may never end",
-     "A list that is to become empty may never do so. One of the loop's stop rules must be a limit "
-     "above 0: of iterations, rays or ms.",
+     "A list that is to become empty may never do so. One of the loop's stop rules must be a "
+     "limit above 0: of iterations, rays or ms.",
      R"("stop": [ { "empty": "request.requests" } ])",
      R"("stop": [ { "empty": "request.requests" }, { "iterations": 1000 } ])"},
     {"E0602", kError, "a loop does not say what a carried value becomes",
@@ -212,15 +207,13 @@ constexpr DiagnosticCode kCodes[] = {
      R"("carry": { "image": "raster.color" }, "next": { "image": "blend.image" })"},
     {"E0603", kError, "\"next\" speaks of a value that the loop does not carry",
      "\"next\" gives new values to what \"carry\" names. Add it there, with the value that it "
-     "begins "
-     "with, or correct the name.",
+     "begins with, or correct the name.",
      "", ""},
     {"E0604", kError, "a carried value changes its type",
      "What is carried must be the same type in every iteration.", "", ""},
     {"E0605", kError, "this cannot be carried",
      "A loop carries values that have elements: planes, lists, records. Scenes and cameras are "
-     "read "
-     "from outside. {\"zero\": \"Type\"} names a port type, as hone passes TYPE prints them.",
+     "read from outside. {\"zero\": \"Type\"} names a port type, as hone passes TYPE prints them.",
      R"("carry": { "sum": { "zero": "Acumulation" } })",
      R"("carry": { "sum": { "zero": "Accumulation" } })"},
     {"E0606", kError, "a stop rule watches what it cannot",
@@ -228,8 +221,8 @@ constexpr DiagnosticCode kCodes[] = {
      "compares a Scalar with its limit.",
      R"("stop": [ { "empty": "trace.color" } ])", R"("stop": [ { "empty": "request.requests" } ])"},
     {"E0607", kError, "all that feeds an input is switched off",
-     "The pass still runs, and its input has nothing left. Give the pass a \"when\" of its own, or "
-     "the input an edge that stays.",
+     "The pass still runs, and its input has nothing left. Give the pass a \"when\" of its own, "
+     "or the input an edge that stays.",
      "", ""},
     {"E0608", kError, "what may be switched off is needed",
      "A pass with a \"when\" that is off has no outputs. \"bypass\" says what stands in for each "
