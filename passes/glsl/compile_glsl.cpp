@@ -27,6 +27,11 @@ namespace {
 constexpr rlim_t kMaxSeconds = 3;             ///< of processor time
 constexpr int kMaxWaitMs = 30'000;            ///< without a word, on a busy machine
 constexpr rlim_t kMaxBytes = rlim_t{1} << 30; ///< beyond what the process has
+#ifdef __SANITIZE_ADDRESS__                   // maps terabytes
+constexpr bool kLimitsMemory = false;
+#else
+constexpr bool kLimitsMemory = true;
+#endif
 constexpr std::size_t kMaxAnswer = std::size_t{4} << 20;
 
 /// glslang and the SPIR-V optimiser on one text.
@@ -116,10 +121,8 @@ rlim_t bytesMapped() {
         std::signal(signal, SIG_DFL);
     setLimit(RLIMIT_CORE, 0);
     setLimit(RLIMIT_CPU, kMaxSeconds);
-#ifndef __SANITIZE_ADDRESS__ // which maps terabytes
-    if (const rlim_t mapped = bytesMapped(); mapped > 0)
+    if (const rlim_t mapped = kLimitsMemory ? bytesMapped() : 0; mapped > 0)
         setLimit(RLIMIT_AS, mapped + kMaxBytes);
-#endif
     try {
         const CompiledGlsl result = compileHere(source);
         const std::uint64_t log_bytes = result.log.size();
