@@ -78,7 +78,9 @@ TEST(PluginPass, IsDeclaredAsItsTablesSay) {
 }
 
 TEST(PluginPass, BringsTypesOfItsOwnAndUsesHones) {
-    const PortType told = typeOf("good_passes", "test.tell").outputs[0].type;
+    // A pass type keeps the plug-in's library, and with it its port types' texts, alive.
+    const PassType tell = typeOf("good_passes", "test.tell");
+    const PortType& told = tell.outputs[0].type;
     EXPECT_EQ(told.name, "Told");
     EXPECT_EQ(told.shape, Shape::kRecord);
     EXPECT_EQ(told.stride, 4u);
