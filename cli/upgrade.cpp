@@ -3,14 +3,13 @@
 // hone upgrade: carries graph files of older versions over to the present one.
 #include "hone/cli/commands.h"
 
-#include "hone/core/error.h"
+#include "hone/core/graph/graph_desc.h"
 #include "hone/core/graph/upgrade.h"
 #include "hone/core/image/atomic_file.h"
 #include "hone/core/printable.h"
 
-#include <fstream>
 #include <ostream>
-#include <sstream>
+#include <vector>
 
 namespace hone::cli {
 namespace {
@@ -29,16 +28,17 @@ void printEdits(const SourceText& source, const UpgradedText& upgraded, std::ost
 int upgrade(const UpgradeArguments& arguments, const Console& console) {
     int result = kOk;
     for (const std::string& path : arguments.graphs) {
-        std::ostringstream text;
-        if (std::ifstream file(path, std::ios::binary); !(text << file.rdbuf())) {
-            console.err << printable(path)
-                        << ": error E0106: the graph file cannot be read\n"
-                           "  = help: does it exist, and may you read it?\n\n";
+        // Read as every graph is: with its limits, and E0106 where it cannot be. What else is wrong
+        // in it is for check to say.
+        std::vector<Diagnostic> diagnostics;
+        const GraphDesc desc = parseGraphFile(path, diagnostics);
+        const SourceText& source = *desc.source;
+        std::erase_if(diagnostics, [](const Diagnostic& d) { return d.code != "E0106"; });
+        if (!diagnostics.empty()) {
+            console.err << format(diagnostics);
             result = kBadInput;
             continue;
         }
-        const SourceText source(path, text.str());
-        std::vector<Diagnostic> diagnostics;
         const UpgradedText upgraded = upgradeText(source, diagnostics);
         console.err << format(diagnostics);
         if (!upgraded.is_valid) {

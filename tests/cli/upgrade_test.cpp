@@ -46,6 +46,9 @@ TEST(UpgradeCommand, LeavesWhatItCannotReadAlone) {
     EXPECT_EQ(read(folder.path("g.json")), broken);
     EXPECT_NE(run.err.find("E0101"), std::string::npos) << run.err;
     EXPECT_NE(run.err.find("E0106"), std::string::npos) << run.err;
+    const CommandRun empty = runHone({"upgrade", folder.write("empty.json", "")});
+    EXPECT_NE(empty.err.find("E0101"), std::string::npos) << empty.err;
+    EXPECT_NE(runHone({"upgrade", "/dev/zero"}).err.find("E0104"), std::string::npos);
 }
 
 } // namespace
