@@ -17,7 +17,9 @@
 //
 // The subset: write 1.0f, never 1.0; vec3(v) to shorten a vector, no swizzles of more than one
 // component; no array constructors; HONE_OUT / HONE_INOUT for parameters; HONE_CONST for constants;
-// a variable has its own statement; HONE_PRECISE before one whose sums and products must not be
+// a variable has its own statement; HONE_FLAT before a kernel whose calls shall all be inlined on the
+// host, where it then keeps its records in registers (measure: most kernels gain nothing and get
+// large); HONE_PRECISE before one whose sums and products must not be
 // fused, because the result's sign or last bit decides something. Results are the same bits at any
 // thread count because an invocation may write only its own elements.
 #ifndef HONE_KERNEL_GLSL_H
@@ -35,6 +37,7 @@
 #define HONE_OUT(type) type&
 #define HONE_INOUT(type) type&
 #define HONE_CONST static constexpr
+#define HONE_FLAT [[gnu::flatten]]
 #define HONE_PRECISE
 
 #else
@@ -53,6 +56,7 @@
 #define HONE_OUT(type) out type
 #define HONE_INOUT(type) inout type
 #define HONE_CONST const
+#define HONE_FLAT
 #define HONE_PRECISE precise
 
 #endif

@@ -30,11 +30,6 @@ HONE_PARAMS(Params)
 HONE_READ(Hit, gbuffer)
 HONE_WRITE(vec2, error)
 
-/// What a face of the map says about the segments from a surface to a light.
-HONE_CONST uint kFree = 0u;    ///< nothing in it blocks any
-HONE_CONST uint kBlocked = 1u; ///< it blocks all
-HONE_CONST uint kUnclear = 2u;
-
 /// Of a depth: what is that near to the surface's plane is the surface.
 HONE_CONST float kBias = 2e-5f;
 
@@ -54,6 +49,23 @@ Area texelArea(uint x, uint y) {
     area.low = vec2(float(x), float(y));
     area.high = area.low + vec2(1.0f);
     return area;
+}
+
+/// Texels of a face that the segments may cross before something could block them.
+struct SearchedArea {
+    bool is_free;   ///< none: nothing is before the surface there
+    bool is_inside; ///< all segments are in this face
+    uvec2 low;
+    uvec2 high;
+    DepthRange range; ///< of the blocks that hold them
+};
+
+uvec2 firstCell(SearchedArea area) {
+    return uvec2(area.low.x >> 1u, area.low.y >> 1u);
+}
+
+uvec2 lastCell(SearchedArea area) {
+    return uvec2(area.high.x >> 1u, area.high.y >> 1u);
 }
 
 /// Least and greatest nearness of the tip's plane over a square area.
@@ -78,7 +90,36 @@ float texelNearness(LightCone cone, uint x, uint y) {
     return nearnessOf(cone.tip, shadow_maps[cone.tip.first + y * size + x]);
 }
 
-/// Looks at a block and, where that decides nothing, at its quarters, to the texels: whether
+/// Whether any of 4 x 4 texels is a blocker. Has no branches, so that compilers do all at once.
+bool windowBlocks(LightCone cone, uvec2 first) {
+    uint size = uint(shadow_maps[0]);
+    float bias = kBias * cone.tip.depth;
+    float behind = cone.tip.depth + 16.0f * cone.tip.texel;
+    vec2 at = cone.tip.position;
+    float box = cone.tip.is_box ? 1.0f : 0.0f; // chooses by product
+    float cube = 1.0f - box;
+    uint found = 0u;
+    for (uint i = 0u; i < 16u; ++i) {
+        uint x = min(first.x + (i & 3u), size - 1u);
+        uint y = min(first.y + (i >> 2u), size - 1u);
+        float center_x = float(x) + 0.5f;
+        float center_y = float(y) + 0.5f;
+        float depth = shadow_maps[cone.tip.first + y * size + x];
+        float way = max(cube * (1.0f / depth) - box * depth - cone.nearness, 0.0f);
+        uint is_across = uint(center_x >= at.x + way * cone.low.x - kConeMargin) &
+                         uint(center_x <= at.x + way * cone.high.x + kConeMargin) &
+                         uint(center_y >= at.y + way * cone.low.y - kConeMargin) &
+                         uint(center_y <= at.y + way * cone.high.y + kConeMargin);
+        float plane = cone.tip.plane + cone.tip.slope.x * (center_x - at.x) +
+                      cone.tip.slope.y * (center_y - at.y);
+        float lit_to = depth + bias;
+        float left = box * (lit_to - plane) + cube * (plane * lit_to - 1.0f);
+        found |= is_across & uint(lit_to < behind) & uint(left < 0.0f);
+    }
+    return found != 0u;
+}
+
+/// Looks at a block and, where that decides nothing, at its quarters, to windows of texels: whether
 /// anything blocks segments of the cone. Ends where blocks are as small as what the mask resolves,
 /// as seen there.
 bool retestBlock(LightCone cone, uint ranges_first, uint start_level, uvec2 start_cell) {
@@ -97,20 +138,15 @@ bool retestBlock(LightCone cone, uint ranges_first, uint start_level, uvec2 star
         Area section = coneArea(cone, nearness);
         if (!overlap(area, section) || nearness <= planeRange(cone, area).x)
             continue;
-        if (level == 0u) {
-            uint edge = uint(shadow_maps[0]) - 1u;
-            for (uint i = 0u; i < 4u; ++i) {
-                uint x = min(2u * cell.x + (i & 1u), edge);
-                uint y = min(2u * cell.y + (i >> 1u), edge);
-                if (isBlocker(cone, x, y, texelNearness(cone, x, y)))
-                    return true;
-            }
-            continue;
-        }
         float wide = min(section.high.x - section.low.x, section.high.y - section.low.y) -
                      2.0f * kConeMargin;
         if (float(kMaskEdge) * (area.high.x - area.low.x) <= wide)
             return true;
+        if (level <= 1u) {
+            if (windowBlocks(cone, uvec2(2u * cell.x, 2u * cell.y)))
+                return true;
+            continue;
+        }
         uint step_size = 1u << (level - 1u);
         for (uint i = 0u; i < 4u; ++i) {
             uvec2 quarter = uvec2(cell.x + (i & 1u) * step_size, cell.y + (i >> 1u) * step_size);
@@ -141,11 +177,15 @@ bool isTipHidden(LightCone cone) {
     return isBlocker(cone, x, y, texelNearness(cone, x, y));
 }
 
-/// retestBlock for the blocks that hold the cells from low to high, few of them. Where the light's
-/// centre is hidden they need not be looked at.
-bool retestArea(LightCone cone, uint ranges_first, uvec2 low, uvec2 high) {
+/// Whether anything in the area blocks segments of the cone: asked of the texels where one window
+/// holds them, else of the few blocks that do. Where the light's centre is hidden neither is asked.
+bool retestArea(LightCone cone, uint ranges_first, SearchedArea area) {
+    if (area.high.x - area.low.x < 4u && area.high.y - area.low.y < 4u)
+        return windowBlocks(cone, area.low);
     if (isTipHidden(cone))
         return true;
+    uvec2 low = firstCell(area);
+    uvec2 high = lastCell(area);
     uint level = levelOf(low, high, 1u);
     for (uint y = low.y >> level; y <= high.y >> level; ++y)
         for (uint x = low.x >> level; x <= high.x >> level; ++x)
@@ -176,9 +216,11 @@ void hideBlock(LightCone cone, MaskView view, uint ranges_first, uint level, uve
     hideArea(cone, view, area, nearness);
 }
 
-/// Hides what the cells from low to high hide of the light, in blocks. Around the tip, where the
-/// segments are close together, blocks get smaller, down to texels.
-void hideCells(LightCone cone, MaskView view, uint ranges_first, uvec2 low, uvec2 high) {
+/// Hides what the area hides of the light, in blocks. Around the tip, where the segments are close
+/// together, blocks get smaller, down to texels.
+void hideCells(LightCone cone, MaskView view, uint ranges_first, SearchedArea area) {
+    uvec2 low = firstCell(area);
+    uvec2 high = lastCell(area);
     uint edge = uint(shadow_maps[0]) - 1u;
     vec2 tip = clamp(0.5f * cone.tip.position, vec2(0.0f), vec2(float(shadow_ranges[0].x - 1u)));
     uvec2 around = uvec2(uint(tip.x), uint(tip.y));
@@ -218,49 +260,52 @@ bool isAcross(LightCone cone, DepthRange range) {
     return params.certified == 0u || (!range.is_broken && range.nearest > cone.reach);
 }
 
-/// The test of Guennebaud et al. (2006, section 3.2) on one face: depths of the area that the
+/// The search of Guennebaud et al. (2006, section 3.2) on one face: depths of the area that the
 /// segments cross say up to where they are free, which makes the area smaller, and so on.
-uint searchFace(Light light, MaskFrame frame, uint face, LightCone cone, uint ranges_first,
-                float nearest, bool is_own) {
+SearchedArea searchFace(LightCone cone, uint ranges_first, float nearest, bool is_own) {
     float size = shadow_maps[0];
     float lit_from = nearnessOf(cone.tip, cone.tip.depth - kBias * cone.tip.depth);
     float start = params.near > 0.0f ? params.near : nearest;
     Area area = coneArea(cone, nearnessOf(cone.tip, start));
-    DepthRange range;
-    uvec2 low;
-    uvec2 high;
-    bool is_inside = is_own;
+    SearchedArea found;
     for (uint i = 0u; true; ++i) {
-        if (area.high.x < 0.0f || area.high.y < 0.0f || area.low.x >= size || area.low.y >= size)
-            return kFree;
-        is_inside = is_own && area.low.x >= 0.0f && area.low.y >= 0.0f && area.high.x < size &&
-                    area.high.y < size;
+        found.is_free =
+            area.high.x < 0.0f || area.high.y < 0.0f || area.low.x >= size || area.low.y >= size;
+        if (found.is_free)
+            return found;
+        found.is_inside = is_own && area.low.x >= 0.0f && area.low.y >= 0.0f &&
+                          area.high.x < size && area.high.y < size;
         vec2 from = clamp(area.low, vec2(0.0f), vec2(size - 1.0f));
         vec2 to = clamp(area.high, vec2(0.0f), vec2(size - 1.0f));
-        low = uvec2(uint(from.x) >> 1u, uint(from.y) >> 1u);
-        high = uvec2(uint(to.x) >> 1u, uint(to.y) >> 1u);
-        range = areaRange(ranges_first, low, high, 1u);
-        float most = nearnessOf(cone.tip, max(range.nearest, params.near));
-        if (most <= lit_from)
-            return kFree;
+        found.low = uvec2(uint(from.x), uint(from.y));
+        found.high = uvec2(uint(to.x), uint(to.y));
+        found.range = areaRange(ranges_first, firstCell(found), lastCell(found), 1u);
+        float most = nearnessOf(cone.tip, max(found.range.nearest, params.near));
+        found.is_free = most <= lit_from;
+        if (found.is_free)
+            return found;
         Area next = coneArea(cone, most);
         if (i == params.iterations || next.high.x - next.low.x >= area.high.x - area.low.x)
-            break;
+            return found;
         area = next;
     }
-    if (is_inside && isAcross(cone, range))
-        return kBlocked;
-    if (params.retest != 0u) {
-        // What nbuffer said was exact already.
-        if (is_inside && shadow_ranges[1].x == kRangeHsm &&
-            isAcross(cone, areaRange(ranges_first, low, high, kRetestBlocks)))
-            return kBlocked;
-        if (!retestArea(cone, ranges_first, low, high))
-            return kFree;
-    }
-    if (params.detail > 0u)
-        hideCells(cone, maskView(light, frame, face, cone.tip), ranges_first, low, high);
-    return kUnclear;
+    return found;
+}
+
+/// Whether the area hides all of the light.
+bool hidesAll(LightCone cone, uint ranges_first, SearchedArea area) {
+    if (area.is_free || !area.is_inside)
+        return false;
+    if (isAcross(cone, area.range))
+        return true;
+    // What nbuffer said was exact already.
+    return params.retest != 0u && shadow_ranges[1].x == kRangeHsm &&
+           isAcross(cone, areaRange(ranges_first, firstCell(area), lastCell(area), kRetestBlocks));
+}
+
+/// Whether the area hides nothing of the light.
+bool hidesNothing(LightCone cone, uint ranges_first, SearchedArea area) {
+    return area.is_free || (params.retest != 0u && !retestArea(cone, ranges_first, area));
 }
 
 /// Of a light without extent: shadow tests of the four nearest texels, by how near they are.
@@ -295,57 +340,67 @@ bool isFarFromBorder(vec2 position) {
 ShadowEstimate estimateShadow(uint light_index, Surface surface) {
     Light light = scene_lights[light_index];
     vec3 position = surface.position;
+    vec3 normal = surface.geometric_normal;
+    vec3 direction = position - light.position;
     LightExtent extent = lightExtent(light, position);
     uint own_face = shadowFace(light, 0u, position);
     uint first_face = rangeFirstFace(light_index);
     uint faces = rangeFaces(light);
-    vec3 direction = position - light.position;
-    ShadowLookup own = shadowLookup(light_index, 0u, own_face, position, surface.geometric_normal);
+    ShadowLookup own = shadowLookup(light_index, 0u, own_face, position, normal);
     ShadowEstimate result;
     result.drawn = shadowMapVisibility(light_index, 0u, surface);
+    result.visible = 1.0f;
+    result.is_certain = false;
 
-    bool is_free = true;
-    bool is_blocked = false;
-    bool is_inside_light = false;
+    // Where part of the light is below the horizon, the surface itself hides it.
+    float height =
+        light.kind == kLightDirectional ? -dot(normal, light.direction) : -dot(normal, direction);
+    float dip = abs(dot(normal, extent.half_u)) + abs(dot(normal, extent.half_v));
+    bool is_cut = height <= dip && hasExtent(light);
+
+    // Certain is what nothing hides on any face, or one surface on the surface's own.
+    bool is_clear = result.drawn > 0.0f && !is_cut;
+    if (is_cut && params.detail == 0u)
+        return result;
     MaskFrame frame;
     if (params.detail > 0u) {
         clearMask();
         frame = maskFrame(light, extent, own_face, own);
     }
     // All segments to a point are one, which is in another face's margin near the border only.
-    bool is_in_own_only = !hasExtent(light) && isFarFromBorder(own.position);
-    for (uint face = 0u; face < faces && !is_blocked; ++face) {
-        if (is_in_own_only && face != own_face)
-            continue;
+    uint searched = !hasExtent(light) && isFarFromBorder(own.position) ? 1u : faces;
+    for (uint i = 0u; i < searched; ++i) {
+        uint face = (own_face + i) % faces;
         float depth = own.is_box ? own.depth : cubeCoordinates(face, direction).z;
         vec2 of_face = rangeOfFace(first_face + face);
         if (of_face.x >= max(depth, of_face.y))
             continue; // all segments stay in front of what it holds
         if (depth <= of_face.y) {
-            is_inside_light = true; // no cone: something is within the light's own reach
+            is_clear = false; // no cone: something is within the light's own reach
             continue;
         }
         ShadowLookup tip = own;
         if (face != own_face)
-            tip = shadowLookup(light_index, 0u, face, position, surface.geometric_normal);
+            tip = shadowLookup(light_index, 0u, face, position, normal);
         LightCone cone = lightCone(light, extent, face, tip);
         uint ranges_first = rangeLevelsFirst(first_face + face);
-        uint found =
-            searchFace(light, frame, face, cone, ranges_first, of_face.x, face == own_face);
-        is_blocked = found == kBlocked;
-        is_free = is_free && found == kFree;
+        SearchedArea area = searchFace(cone, ranges_first, of_face.x, face == own_face);
+        bool is_hidden = result.drawn == 0.0f && hidesAll(cone, ranges_first, area);
+        if (!is_hidden && hidesNothing(cone, ranges_first, area))
+            continue;
+        if (is_hidden || (hasExtent(light) && hidesAll(cone, ranges_first, area))) {
+            result.visible = 0.0f;
+            result.is_certain = result.drawn == 0.0f && !is_cut;
+            return result;
+        }
+        if (params.detail == 0u)
+            return result;
+        is_clear = false;
+        if (hasExtent(light))
+            hideCells(cone, maskView(light, frame, face, cone.tip), ranges_first, area);
     }
-    result.visible = is_blocked ? 0.0f : 1.0f;
-    result.is_certain = is_blocked || (is_free && !is_inside_light);
-
-    // Where part of the light is below the horizon, the surface itself hides it.
-    vec3 normal = surface.geometric_normal;
-    float height =
-        light.kind == kLightDirectional ? -dot(normal, light.direction) : -dot(normal, direction);
-    float dip = abs(dot(normal, extent.half_u)) + abs(dot(normal, extent.half_v));
-    bool is_cut = height <= dip && hasExtent(light);
-    result.is_certain = (result.is_certain && !is_cut && result.drawn == result.visible);
-    if (result.is_certain || params.detail == 0u)
+    result.is_certain = is_clear;
+    if (is_clear || params.detail == 0u)
         return result;
 
     if (!hasExtent(light)) {
@@ -354,12 +409,11 @@ ShadowEstimate estimateShadow(uint light_index, Surface surface) {
     }
     if (is_cut)
         hideBelow(height, dot(normal, frame.half_u), dot(normal, frame.half_v));
-    if (!is_blocked)
-        result.visible = visibleShare(frame, extent.is_round);
+    result.visible = visibleShare(frame, extent.is_round);
     return result;
 }
 
-void kernel(uint index) {
+HONE_FLAT void kernel(uint index) {
     error[index] = vec2(0.0f);
     Hit hit = gbuffer[index];
     if (hit.instance == kNone)
