@@ -36,6 +36,7 @@
 //
 // Source: Amann, Chajdas, Westermann 2012, section 4.3, after Guennebaud, Barthe, Paulin, Real-time
 // soft shadow mapping by backprojection, 2006; Schwarz and Stamminger, Bitmask Soft Shadows, 2007.
+#include "hone/core/error.h"
 #include "hone/passes/passes.h"
 
 #include "hone_spirv/shadow_error.h"
@@ -54,6 +55,7 @@ constexpr Kernel kShadowError = makeKernel<ShadowErrorKernel>("shadow_error", sp
 class ShadowError final : public RenderPass {
 public:
     void execute(PassContext& context) override {
+        checkRanges(context);
         const ShadowErrorKernel::Params params{
             .camera = context.camera(),
             .extent = context.extent,
@@ -64,6 +66,26 @@ public:
             .detail = context.params->choice("magnitude") == 0 ? context.param<uint>("detail") : 0};
         context.dispatch(kShadowError, params, context.extent.x * context.extent.y);
     }
+
+private:
+    /// Ranges of maps of another size would be looked up beside them. Who fills these buffers does
+    /// so with the same parameters every time: reading them once is enough.
+    void checkRanges(PassContext& context) {
+        const Value& ranges = context.in("shadow_ranges");
+        if (checked_ == ranges.buffer.data)
+            return;
+        context.chosen->finish();
+        const auto size = static_cast<uint>(context.in("shadow_maps").as<float>()[0]);
+        const uint cells = ranges.as<uvec2>()[0].x;
+        if (cells != (size + 1) / 2)
+            throw GraphError(
+                std::string(context.pass_name) + ": the shadow maps have faces of " +
+                std::to_string(size) + " texels, but the shadow ranges were made of maps with " +
+                std::to_string(2 * cells) + "; connect the maps that pass shadow_range reads");
+        checked_ = ranges.buffer.data;
+    }
+
+    const std::byte* checked_ = nullptr; ///< ranges that are of the right size
 };
 
 } // namespace

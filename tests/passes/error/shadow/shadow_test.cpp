@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "hone/core/error.h"
 #include "hone/passes/passes.h"
 #include "hone/tests/support/run_pass.h"
 #include "hone/tests/support/shadow_scenes.h"
@@ -105,6 +106,32 @@ TEST_P(ShadowError, FlagsThePenumbraOfTheSun) {
     const Scene scene = edgeOverFloor(lampOf(kLightDirectional));
     const float texel = 2 * std::sqrt(30.0f * 30 + 2 * 2 + 20 * 20) / kMapSize;
     expectFlagged(errorOf(scene, lookingDown(), kPaper), 0.4f, texel, 2.5f * texel);
+}
+
+TEST_P(ShadowError, RefusesRangesOfOtherMaps) {
+    const Scene scene = edgeOverFloor(lampOf());
+    PassRun maps(shadowMapPass(), device()), small(shadowMapPass(), device());
+    PassRun ranges(shadowRangePass(), device()), raster(rasterPass(), device());
+    PassRun error(shadowErrorPass(), device());
+    for (PassRun* run : {&maps, &small, &ranges, &raster, &error}) {
+        run->extent(kExtent).scene(scene).camera(lookingDown());
+        if (GetParam())
+            run->kernelsOnHost();
+    }
+    maps.param("size", 64u).execute();
+    ranges.param("size", 16u)
+        .input("shadow_maps", small.param("size", 16u).execute().value("maps"));
+    raster.execute();
+    error.input("shadow_maps", maps.value("maps")).input("gbuffer", raster.value("gbuffer"));
+    error.input("shadow_ranges", ranges.execute().value("ranges"));
+    try {
+        error.execute();
+        FAIL() << "nothing was thrown";
+    } catch (const GraphError& wrong) {
+        EXPECT_STREQ(wrong.what(),
+                     "error.shadow: the shadow maps have faces of 64 texels, but the shadow ranges "
+                     "were made of maps with 16; connect the maps that pass shadow_range reads");
+    }
 }
 
 TEST_P(ShadowError, FlagsMoreFromWiderBlocksOfThePyramid) {
