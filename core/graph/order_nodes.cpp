@@ -18,7 +18,7 @@ struct Dependency {
 class ScopeOrder {
 public:
     ScopeOrder(Compilation& c, NodeId scope, std::uint64_t seed)
-        : c_(&c), scope_(scope), seed_(seed) {
+        : c_(&c), seed_(seed) {
         for (NodeId id = 0; id < c.graph.nodes.size(); ++id)
             if (c.graph.nodes[id].parent == scope)
                 members_.push_back(id);
@@ -118,7 +118,6 @@ private:
 
     static constexpr std::size_t npos = static_cast<std::size_t>(-1);
     Compilation* c_;
-    NodeId scope_;
     std::uint64_t seed_;
     std::vector<NodeId> members_;
 };

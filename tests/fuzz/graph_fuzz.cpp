@@ -3,12 +3,11 @@
 // Hostile graph files: whatever the bytes are, reading, compiling and reporting end, and what they
 // say is true of the text. Run with libFuzzer (tests/fuzz/CMakeLists.txt).
 #include "hone/core/graph/compiled_graph.h"
+#include "hone/tests/fuzz/require.h"
 #include "hone/tests/support/test_passes.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
-#include <iostream>
 #include <optional>
 
 namespace hone {
@@ -25,14 +24,6 @@ std::optional<std::string> readPart(const std::string& name) {
                 "passes": { "add": { "type": "add", "in": { "color": "$color" },
                                      "params": { "amount": "$amount" } } },
                 "outputs": { "color": "add.result" } })";
-}
-
-/// Ends the run with what did not hold and the input, which libFuzzer then keeps.
-void require(bool holds, const char* what) {
-    if (holds)
-        return;
-    std::cerr << "does not hold: " << what << "\n";
-    std::abort();
 }
 
 std::string textOfLine(const std::string& text, std::size_t line) {
