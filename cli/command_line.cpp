@@ -235,10 +235,18 @@ int runCommandLine(int argc, const char* const* argv, std::ostream& out, std::os
     CLI::App* compare_app =
         app.add_subcommand("compare", "how far two images (EXR, PNG) are apart");
     compare_app->add_option("a", compare_arguments.a, "an image")->required();
-    compare_app->add_option("b", compare_arguments.b, "another")->required();
+    compare_app->add_option("b", compare_arguments.b, "another; FLIP takes it for the reference")
+        ->required();
     compare_app->add_option("--layer", compare_arguments.layer, "which layer of EXR files");
     compare_app->add_option("--heat-map", compare_arguments.heat_map,
                             "PNG of the difference to write");
+    compare_app->add_option("--flip-map", compare_arguments.flip_map,
+                            "PNG of FLIP's error to write, from 0 (black) to 1 (pale yellow)");
+    compare_app
+        ->add_option("--ppd", compare_arguments.pixels_per_degree,
+                     "pixels of the display in a degree of sight, for FLIP")
+        ->check(CLI::Range(1.0, 1000.0))
+        ->capture_default_str();
     compare_app->add_option("--max-difference", compare_arguments.max_difference,
                             "exit 1 if a channel differs by more");
     compare_app->add_option("--max-differing-bits", compare_arguments.max_differing_bits,

@@ -3,6 +3,7 @@
 
 #include "hone/cli/pin.h"
 #include "hone/core/graph/compiled_graph.h"
+#include "hone/core/image/flip.h"
 #include "hone/core/math.h"
 #include "hone/tests/conformance/conformance_kit.h"
 
@@ -71,8 +72,10 @@ struct NewPassArguments : SessionArguments {
 
 struct CompareArguments : SessionArguments {
     std::string a, b;
-    std::string layer;          ///< of EXR files; "" = the first with three channels
-    std::string heat_map;       ///< PNG to write; "" = none
+    std::string layer;    ///< of EXR files; "" = the first with three channels
+    std::string heat_map; ///< PNG to write; "" = none
+    std::string flip_map; ///< the same of FLIP
+    double pixels_per_degree = kPixelsPerDegree;
     double max_difference = -1; ///< exit 1 past it; negative = never
     long long max_differing_bits = -1;
     bool explain = false; ///< ask the backends of both images why pixels differ

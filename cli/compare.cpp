@@ -6,8 +6,10 @@
 #include "hone/cli/explain_images.h"
 #include "hone/cli/json.h"
 
+#include "hone/backends/host/parallel_for.h"
 #include "hone/core/error.h"
 #include "hone/core/image/compare.h"
+#include "hone/core/image/flip.h"
 #include "hone/core/image/image.h"
 
 #include <algorithm>
@@ -32,6 +34,31 @@ void writeHeatMap(const std::string& path, const RgbImage& a, const RgbImage& b,
         return heatColor(std::max({d.x, d.y, d.z}) * scale);
     });
     writePng(path, quantize(a.extent, colors));
+}
+
+void writeFlipMap(const std::string& path, uvec2 extent, const FlipError& error) {
+    std::vector<vec3> colors(error.pixels.size());
+    std::ranges::transform(error.pixels, colors.begin(), heatColor);
+    writePng(path, quantize(extent, colors));
+}
+
+/// Of HDR-FLIP; null of LDR-FLIP.
+nlohmann::ordered_json exposures(const FlipError& error) {
+    if (error.exposures == 0)
+        return nullptr;
+    return {
+        {"count", error.exposures}, {"first", error.first_exposure}, {"last", error.last_exposure}};
+}
+
+void print(const ImageDifference& difference, const FlipError& error, std::size_t pixels,
+           std::ostream& out) {
+    out << "mse " << difference.mse << "\nrmse " << difference.rmse << "\npsnr " << difference.psnr
+        << " dB\nssim " << difference.ssim << "\nflip " << error.mean;
+    if (error.exposures > 0)
+        out << " (HDR, exposures " << error.exposures << " from " << error.first_exposure << " to "
+            << error.last_exposure << " stops)";
+    out << "\nmax " << difference.max << "\ndiffering pixels " << difference.differing_pixels
+        << " of " << pixels << "\ndiffering bits " << difference.differing_bits << "\n";
 }
 
 /// The explained pixels, one a line, and their sums.
@@ -66,10 +93,15 @@ int compare(const CompareArguments& arguments, const Console& console) {
     const ImageDifference difference = compareImages(a, b);
     if (!arguments.heat_map.empty())
         writeHeatMap(arguments.heat_map, a, b, difference.max);
+    const FlipError error = flip(b, a, hostParallelFor, arguments.pixels_per_degree);
+    if (!arguments.flip_map.empty())
+        writeFlipMap(arguments.flip_map, a.extent, error);
     nlohmann::ordered_json report{{"mse", finite(difference.mse)},
                                   {"rmse", finite(difference.rmse)},
                                   {"psnr", finite(difference.psnr)},
                                   {"ssim", finite(difference.ssim)},
+                                  {"flip", error.mean},
+                                  {"flip_exposures", exposures(error)},
                                   {"max", finite(difference.max)},
                                   {"differing_pixels", difference.differing_pixels},
                                   {"differing_bits", difference.differing_bits}};
@@ -79,11 +111,7 @@ int compare(const CompareArguments& arguments, const Console& console) {
     if (arguments.json)
         print(console.out, report);
     else
-        console.out << "mse " << difference.mse << "\nrmse " << difference.rmse << "\npsnr "
-                    << difference.psnr << " dB\nssim " << difference.ssim << "\nmax "
-                    << difference.max << "\ndiffering pixels " << difference.differing_pixels
-                    << " of " << a.pixels.size() << "\ndiffering bits " << difference.differing_bits
-                    << "\n";
+        print(difference, error, a.pixels.size(), console.out);
     if (arguments.explain && !arguments.json)
         list(report["explained"], console.out);
     const bool too_far =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "hone/core/parallel_for.h"
 #include "hone/core/pass/pass_type.h"
 #include "hone/core/plugin/hone_pass.h"
 #include "hone/core/plugin/hone_plugin.h"
@@ -25,12 +26,6 @@ struct PluginInfo {
     std::vector<Backend> trace_backends;
     std::vector<std::string> passes; ///< their types' names
 };
-
-/// The threads that plug-ins may use: calls body(context, begin, end) for ranges of at most `grain`
-/// that cover [0, count). What hone_host::parallel_for does.
-using ParallelFor = void (*)(std::size_t count, std::size_t grain,
-                             void (*body)(void* context, std::size_t begin, std::size_t end),
-                             void* context);
 
 /// A type of ports that a plug-in brings: the texts that its PortType points to.
 struct PluginPortType {

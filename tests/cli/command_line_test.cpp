@@ -26,6 +26,7 @@ TEST(CommandLine, EndsWithUsageWhereWordsMakeNoSense) {
         {"render", "prt", "--max-ms", "-1"},
         {"check"},
         {"compare", "one.png"},
+        {"compare", "one.png", "two.png", "--ppd", "0"},
         {"bench"},
         {"bench", "parts", "--sizes", "wide"},
         {"bench", "parts", "--repeats", "0"},

@@ -132,15 +132,26 @@ TEST(Json, CompareMeasuresAndEndsWith1PastItsLimit) {
     EXPECT_EQ(same.json()["mse"], 0.0);
     EXPECT_EQ(same.json()["differing_pixels"], 0);
     EXPECT_TRUE(same.json()["psnr"].is_null()); // infinite
+    EXPECT_EQ(same.json()["flip"], 0.0);
+    expectKeys(same.json()["flip_exposures"], {"count", "first", "last"});
 
     // Another seed places soft shadows' samples elsewhere.
-    const CommandRun other = runHone({"compare", images[0], images[1], "--max-differing-bits", "0",
-                                      "--heat-map", folder.path("heat.png"), "--json"});
+    const CommandRun other =
+        runHone({"compare", images[0], images[1], "--max-differing-bits", "0", "--heat-map",
+                 folder.path("heat.png"), "--flip-map", folder.path("flip.png"), "--json"});
     EXPECT_EQ(other.code, kTargetNotMet);
-    expectKeys(other.json(),
-               {"mse", "rmse", "psnr", "ssim", "max", "differing_pixels", "differing_bits"});
+    expectKeys(other.json(), {"mse", "rmse", "psnr", "ssim", "flip", "flip_exposures", "max",
+                              "differing_pixels", "differing_bits"});
     EXPECT_GT(other.json()["differing_pixels"], 0);
     EXPECT_TRUE(std::filesystem::is_regular_file(folder.path("heat.png")));
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder.path("flip.png")));
+    const std::string display = folder.path("heat.png"); // LDR-FLIP
+    EXPECT_TRUE(
+        runHone({"compare", display, display, "--json"}).json()["flip_exposures"].is_null());
+    // Noise is seen better from nearer by.
+    EXPECT_GT(other.json()["flip"], 0.0);
+    EXPECT_GT(runHone({"compare", images[0], images[1], "--ppd", "20", "--json"}).json()["flip"],
+              other.json()["flip"]);
     const std::string most = std::to_string(other.json()["max"].get<double>() / 2);
     EXPECT_EQ(runHone({"compare", images[0], images[1], "--max-difference", most}).code,
               kTargetNotMet);
