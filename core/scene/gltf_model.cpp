@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// tinygltf 2.7 writes files in code that TINYGLTF_NO_FS does not switch off, without this include.
-#include <fstream>
-
-#define TINYGLTF_IMPLEMENTATION
 #include "hone/core/scene/gltf_model.h"
 
 #include "hone/core/error.h"
+
+// tinygltf's own code. 2.7 writes files even with TINYGLTF_NO_FS, and does not include what it
+// needs for that.
+#include <fstream>
+#define TINYGLTF_IMPLEMENTATION
+#include <tiny_gltf.h>
 
 namespace hone {
 

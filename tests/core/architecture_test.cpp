@@ -93,6 +93,21 @@ TEST(Architecture, RoomsIncludeOnlyWhatIsBelowThem) {
     }
 }
 
+TEST(Architecture, SourcesIncludeTheirOwnHeaderFirst) {
+    // So that it compiles alone. Headers without a source get one from tests/CMakeLists.txt.
+    std::string file;
+    for (const Include& include : includes()) {
+        const bool is_first = include.file != file;
+        file = include.file;
+        fs::path header(file);
+        header.replace_extension(".h");
+        if (is_first && file.ends_with(".cpp") && fs::exists(HONE_SOURCE_DIR / header)) {
+            EXPECT_EQ(include.target, "hone/" + header.generic_string())
+                << file << ":" << include.line;
+        }
+    }
+}
+
 TEST(Architecture, OneRoomNamesEachForeignApi) {
     struct Api {
         const char* prefix;
