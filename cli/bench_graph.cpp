@@ -48,8 +48,8 @@ CompiledGraph makeBenchGraph(const Catalog& catalog) {
     outputs["display"] = "tonemap.display";
 
     std::vector<Diagnostic> diagnostics;
-    const GraphDesc desc =
-        parseGraph("bench of " + path, graph.dump(2), diagnostics, filesBeside(path));
+    const GraphDesc desc = parseGraph("bench of " + path, graph.dump(2), diagnostics,
+                                      filesBeside(path), catalog.graphs);
     return compileOrThrow(desc, catalog, {}, std::move(diagnostics));
 }
 

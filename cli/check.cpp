@@ -40,9 +40,9 @@ int check(const CheckArguments& arguments, const Console& console) {
     for (const std::string& name : arguments.graphs) {
         const std::string path = findGraph(name);
         std::vector<Diagnostic> diagnostics;
-        const GraphDesc desc = parseGraphFile(path, diagnostics);
-        const CompiledGraph graph =
-            compile(desc, session.catalog(), arguments.overrides, diagnostics);
+        const Catalog catalog = session.catalog();
+        const GraphDesc desc = parseGraphFile(path, diagnostics, catalog.graphs);
+        const CompiledGraph graph = compile(desc, catalog, arguments.overrides, diagnostics);
         const auto errors = std::ranges::count_if(
             diagnostics, [](const Diagnostic& d) { return d.severity == Severity::kError; });
         for (const Diagnostic& diagnostic : diagnostics)

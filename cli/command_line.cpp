@@ -57,9 +57,7 @@ std::string findGraph(const std::string& name) {
     std::error_code ignored;
     if (fs::is_regular_file(name, ignored))
         return name;
-    const fs::path installed = installedGraphs();
-    const fs::path graphs = installed.empty() ? fs::path(HONE_SOURCE_DIR) / "graphs" : installed;
-    const fs::path shipped = graphs / fs::path(name).filename();
+    const fs::path shipped = shippedGraphs() / fs::path(name).filename();
     for (const fs::path& candidate : {shipped, fs::path(shipped.string() + ".json")})
         if (fs::is_regular_file(candidate, ignored))
             return candidate.string();

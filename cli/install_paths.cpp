@@ -18,8 +18,9 @@ fs::path besideProgram(const char* relative) {
 
 } // namespace
 
-fs::path installedGraphs() {
-    return besideProgram(HONE_GRAPHS_FROM_BIN);
+fs::path shippedGraphs() {
+    const fs::path installed = besideProgram(HONE_GRAPHS_FROM_BIN);
+    return installed.empty() ? fs::path(HONE_SOURCE_DIR) / "graphs" : installed;
 }
 
 fs::path installedPlugins() {

@@ -5,9 +5,12 @@
 
 namespace hone::cli {
 
-/// Where `cmake --install` put hone's graphs and looks for plug-ins, found from where this program
-/// stands, so that an installed tree may be moved. Empty where it is no installed program.
-[[nodiscard]] std::filesystem::path installedGraphs();
+// Where `cmake --install` put things, found from where this program stands, so that an installed
+// tree may be moved.
+
+/// The folder of hone's graphs: the source tree's where this is no installed program.
+[[nodiscard]] std::filesystem::path shippedGraphs();
+/// The folder that is looked into for plug-ins; empty where this is no installed program.
 [[nodiscard]] std::filesystem::path installedPlugins();
 
 } // namespace hone::cli

@@ -80,8 +80,8 @@ MeasureGraph makeMeasureGraph(const std::string& path, const Catalog& catalog,
     graph["outputs"] = std::move(outputs);
 
     std::vector<Diagnostic> diagnostics;
-    const GraphDesc desc =
-        parseGraph("measurement of " + path, graph.dump(2), diagnostics, filesBeside(path));
+    const GraphDesc desc = parseGraph("measurement of " + path, graph.dump(2), diagnostics,
+                                      filesBeside(path), catalog.graphs);
     result.graph = compileOrThrow(desc, catalog, overrides, std::move(diagnostics));
     return result;
 }

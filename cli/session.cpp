@@ -33,6 +33,10 @@ Session::Session(std::span<const std::string> plugins) {
         logger().warn("{}", problem);
 }
 
+Catalog Session::catalog() const {
+    return {&passes_, &trace_backends_, &shaders_, shippedGraphs().string()};
+}
+
 void Session::record(TraceRecorder& recorder) {
     trace_backends_.wrapEach([&recorder](std::unique_ptr<TraceBackend> backend) {
         return makeRecordBackend(std::move(backend), recorder);

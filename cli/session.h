@@ -23,7 +23,7 @@ public:
     /// the installed plug-in folder have, where what does not load is warned about and left out.
     /// Opens no device.
     explicit Session(std::span<const std::string> plugins = {});
-    [[nodiscard]] Catalog catalog() const { return {&passes_, &trace_backends_, &shaders_}; }
+    [[nodiscard]] Catalog catalog() const;
     [[nodiscard]] const PassRegistry& passes() const { return passes_; }
     [[nodiscard]] const TraceBackendRegistry& traceBackends() const { return trace_backends_; }
     /// What backends with names like check(embree) found so far.

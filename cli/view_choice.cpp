@@ -52,7 +52,7 @@ std::vector<std::pair<vec3, float>> mirrorsOf(const Scene& scene) {
 /// The graph with nothing asked for but the order and what the raster image sees.
 CompiledGraph compileErrors(const std::string& path, const Catalog& catalog) {
     std::vector<Diagnostic> diagnostics;
-    GraphDesc desc = parseGraphFile(path, diagnostics);
+    GraphDesc desc = parseGraphFile(path, diagnostics, catalog.graphs);
     const Place place = desc.outputs_place;
     desc.outputs = {{{"order", place}, {"sort.order", place}},
                     {{"depth", place}, {"raster.depth", place}}};

@@ -53,7 +53,7 @@ CompiledGraph compileOrThrow(const GraphDesc& desc, const Catalog& catalog,
 CompiledGraph loadGraph(const std::string& path, const Catalog& catalog,
                         const Overrides& overrides) {
     std::vector<Diagnostic> diagnostics;
-    const GraphDesc desc = parseGraphFile(path, diagnostics);
+    const GraphDesc desc = parseGraphFile(path, diagnostics, catalog.graphs);
     return compileOrThrow(desc, catalog, overrides, std::move(diagnostics));
 }
 

@@ -19,6 +19,7 @@ struct Catalog {
     const PassRegistry* passes = nullptr;
     const TraceBackendRegistry* trace_backends = nullptr;
     const ShaderCompiler* shaders = nullptr; ///< null: passes of type "glsl" are refused
+    std::string graphs{};                    ///< folder of graphs that any may use; "": none
 };
 
 /// Overrides in the order given: {"batch", "4096"} sets a graph parameter, {"refine.trace.exact",

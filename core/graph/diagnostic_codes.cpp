@@ -104,7 +104,7 @@ constexpr DiagnosticCode kCodes[] = {
      "The plug-in is loaded, but another version of it: hone passes lists what it has.", "", ""},
     {"E0310", kError, "a file that the graph names cannot be read",
      "A graph or shader that a pass is made of is looked for in the folder of the graph that "
-     "names it. Links that lead out of that folder are not followed.",
+     "names it, then among the shipped graphs. Links that lead out of a folder are not followed.",
      "", ""},
     {"E0311", kError, "a file must lie beside the graph",
      "A graph may name files of its own folder and of folders in it, with no \"..\" and no "

@@ -164,15 +164,17 @@ using ReadFile = std::function<std::optional<std::string>(const std::string& pat
 [[nodiscard]] ReadFile filesBeside(const std::string& path);
 
 /// Reads a graph from its text, and the files that it names through `files` (empty: it may name
-/// none); `file` names it in reports. Older versions are upgraded as they are read. Adds problems
-/// to `diagnostics` and returns what could be read, so that compile() can report the rest in the
-/// same run.
+/// none), or else from the folder `shipped` ("" for none), so that a copy of a shipped graph finds
+/// its parts wherever it lies. `file` names it in reports. Older versions are upgraded as they are
+/// read. Adds problems to `diagnostics` and returns what could be read, so that compile() can
+/// report the rest in the same run.
 [[nodiscard]] GraphDesc parseGraph(std::string file, std::string text,
-                                   std::vector<Diagnostic>& diagnostics,
-                                   const ReadFile& files = {});
+                                   std::vector<Diagnostic>& diagnostics, const ReadFile& files = {},
+                                   const std::string& shipped = {});
 /// The same for a file, whose stem names a graph without a name; a file that cannot be read is the
 /// problem E0106.
 [[nodiscard]] GraphDesc parseGraphFile(const std::string& path,
-                                       std::vector<Diagnostic>& diagnostics);
+                                       std::vector<Diagnostic>& diagnostics,
+                                       const std::string& shipped = {});
 
 } // namespace hone

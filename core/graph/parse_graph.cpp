@@ -116,23 +116,46 @@ private:
     ReadCounts counts_;
 };
 
-/// Reads a graph and, through `files`, all that it names.
+/// Reads a graph and all that it names: through `files`, or else from the folder `shipped`.
 class GraphLoader {
 public:
-    GraphLoader(std::vector<Diagnostic>& diagnostics, const ReadFile& files)
-        : diagnostics_(&diagnostics), files_(&files) {}
+    GraphLoader(std::vector<Diagnostic>& diagnostics, const ReadFile& files,
+                const std::string& shipped)
+        : diagnostics_(&diagnostics) {
+        roots_.push_back({"", files ? files : ReadFile([](const std::string&) {
+                              return std::optional<std::string>();
+                          })});
+        if (!shipped.empty())
+            roots_.push_back({shipped, filesBeside((fs::path(shipped) / "").string())});
+    }
 
     GraphDesc load(std::string file, std::string text) {
-        folder_ = fs::path(file).parent_path();
-        const std::string name = fs::path(file).filename().string();
+        roots_.front().folder = fs::path(file).parent_path();
+        chain_.push_back(file);
         GraphDesc graph = parse(std::move(file), std::move(text));
         root_ = &graph;
-        chain_.push_back(name);
-        loadFiles(graph, "");
+        loadFiles(graph, {});
         return graph;
     }
 
 private:
+    /// Files are named from the folder of the graph that names them. Those that are not there are
+    /// looked for in the roots that follow; what was found in one names files of that one alone or
+    /// of those that follow.
+    struct Root {
+        fs::path folder;
+        ReadFile read;
+    };
+    struct Folder {
+        std::size_t root = 0;
+        fs::path path{}; ///< from the root
+    };
+    struct File {
+        std::string shown; ///< its path as reports show it
+        Folder folder;
+        std::optional<std::string> text; ///< nothing where it was read before
+    };
+
     GraphDesc parse(std::string file, std::string text) {
         GraphDesc graph;
         graph.source = std::make_unique<const SourceText>(std::move(file), std::move(text));
@@ -153,12 +176,12 @@ private:
         return graph;
     }
 
-    void loadFiles(GraphDesc& graph, const fs::path& folder) {
+    void loadFiles(GraphDesc& graph, const Folder& folder) {
         Reporter reporter(*graph.source, *diagnostics_);
         loadFiles(reporter, graph.passes, folder);
     }
 
-    void loadFiles(Reporter& reporter, std::vector<PassDesc>& passes, const fs::path& folder) {
+    void loadFiles(Reporter& reporter, std::vector<PassDesc>& passes, const Folder& folder) {
         for (PassDesc& pass : passes) {
             if (pass.loop)
                 loadFiles(reporter, pass.loop->passes, folder);
@@ -169,80 +192,96 @@ private:
         }
     }
 
-    /// The path of a named file from the first graph's folder; nothing, with a report, where it
-    /// leads elsewhere.
-    std::optional<std::string> pathOf(Reporter& reporter, const Word& name,
-                                      const fs::path& folder) {
+    /// The path of a named file from its root; nothing, with a report, where it leads elsewhere.
+    static std::optional<fs::path> pathOf(Reporter& reporter, const Word& name,
+                                          const fs::path& folder) {
         const fs::path path = (folder / name.text).lexically_normal();
         const bool is_inside = !fs::path(name.text).is_absolute() && !path.empty() &&
                                *path.begin() != ".." && path.has_filename() &&
                                name.text.find('\0') == std::string::npos &&
                                name.text.find('\\') == std::string::npos;
         if (is_inside)
-            return path.generic_string();
+            return path;
         reporter.error("E0311", name.place,
                        "\"" + name.text + "\" is no file of the graph's folder or below it",
                        "a graph may name files beside it only: \"file.json\", \"parts/file.json\"");
         return std::nullopt;
     }
 
-    std::optional<std::string> readText(Reporter& reporter, const Word& name,
-                                        const std::string& path) {
-        std::optional<std::string> text = *files_ ? (*files_)(path) : std::nullopt;
-        if (!text)
-            reporter.error("E0310", name.place, "the file \"" + name.text + "\" cannot be read",
-                           "it is looked for at \"" + (folder_ / path).generic_string() +
-                               "\": does it exist, and may you read it?");
-        return text;
+    /// Nothing, with a report, for a file that cannot be read. `is_known` tells of files by their
+    /// shown paths: each is read once, however often it is named.
+    template <class IsKnown>
+    std::optional<File> find(Reporter& reporter, const Word& name, const Folder& folder,
+                             const IsKnown& is_known) {
+        const std::optional<fs::path> path = pathOf(reporter, name, folder.path);
+        if (!path)
+            return std::nullopt;
+        for (std::size_t root = folder.root; root < roots_.size(); ++root) {
+            File file{(roots_[root].folder / *path).generic_string(),
+                      {root, path->parent_path()},
+                      std::nullopt};
+            if (is_known(file.shown))
+                return file;
+            file.text = roots_[root].read(path->generic_string());
+            if (file.text)
+                return file;
+        }
+        reporter.error("E0310", name.place, "the file \"" + name.text + "\" cannot be read",
+                       "it is looked for at \"" +
+                           (roots_[folder.root].folder / *path).generic_string() +
+                           "\": does it exist, and may you read it?");
+        return std::nullopt;
     }
 
-    const SourceText* loadShader(Reporter& reporter, const Word& name, const fs::path& folder) {
-        const std::optional<std::string> path = pathOf(reporter, name, folder);
-        if (!path)
-            return nullptr;
-        const std::string shown = (folder_ / *path).generic_string();
-        for (const auto& known : root_->shaders)
-            if (known->file() == shown)
-                return known.get();
-        std::optional<std::string> text = readText(reporter, name, *path);
-        if (!text)
-            return nullptr;
-        root_->shaders.push_back(std::make_unique<const SourceText>(shown, std::move(*text)));
+    const SourceText* loadShader(Reporter& reporter, const Word& name, const Folder& folder) {
+        const SourceText* known = nullptr;
+        std::optional<File> file = find(reporter, name, folder, [&](const std::string& shown) {
+            for (const auto& shader : root_->shaders)
+                if (shader->file() == shown)
+                    known = shader.get();
+            return known != nullptr;
+        });
+        if (!file || known != nullptr)
+            return known;
+        root_->shaders.push_back(
+            std::make_unique<const SourceText>(file->shown, std::move(*file->text)));
         return root_->shaders.back().get();
     }
 
-    const GraphDesc* loadGraph(Reporter& reporter, const Word& name, const fs::path& folder) {
-        const std::optional<std::string> path = pathOf(reporter, name, folder);
-        if (!path)
+    const GraphDesc* loadGraph(Reporter& reporter, const Word& name, const Folder& folder) {
+        const GraphDesc* known = nullptr;
+        bool is_circle = false;
+        std::optional<File> file = find(reporter, name, folder, [&](const std::string& shown) {
+            is_circle = std::ranges::find(chain_, shown) != chain_.end();
+            for (const auto& graph : root_->graphs)
+                if (graph->source->file() == shown)
+                    known = graph.get();
+            return is_circle || known != nullptr;
+        });
+        if (!file)
             return nullptr;
-        if (std::ranges::find(chain_, *path) != chain_.end()) {
+        if (is_circle) {
             std::string text;
-            for (const std::string& file : chain_)
-                text += "\"" + file + "\" -> ";
+            for (const std::string& link : chain_)
+                text += "\"" + link + "\" -> ";
             reporter.error("E0312", name.place,
-                           "graphs use each other in a circle: " + text + "\"" + *path + "\"",
+                           "graphs use each other in a circle: " + text + "\"" + file->shown + "\"",
                            "to repeat work, use a \"loop\"");
             return nullptr;
         }
-        const std::string shown = (folder_ / *path).generic_string();
-        for (const auto& known : root_->graphs)
-            if (known->source->file() == shown)
-                return known->is_readable ? known.get() : nullptr;
-        std::optional<std::string> text = readText(reporter, name, *path);
-        if (!text)
-            return nullptr;
+        if (known != nullptr)
+            return known->is_readable ? known : nullptr;
         GraphDesc& graph = *root_->graphs.emplace_back(
-            std::make_unique<GraphDesc>(parse(shown, std::move(*text))));
-        chain_.push_back(*path);
-        loadFiles(graph, fs::path(*path).parent_path());
+            std::make_unique<GraphDesc>(parse(file->shown, std::move(*file->text))));
+        chain_.push_back(file->shown);
+        loadFiles(graph, file->folder);
         chain_.pop_back();
         return graph.is_readable ? &graph : nullptr;
     }
 
     std::vector<Diagnostic>* diagnostics_;
-    const ReadFile* files_;
+    std::vector<Root> roots_;
     GraphDesc* root_ = nullptr;
-    fs::path folder_;
     std::vector<std::string> chain_; ///< of graphs that use each other
 };
 
@@ -307,14 +346,15 @@ ReadFile filesBeside(const std::string& path) {
 }
 
 GraphDesc parseGraph(std::string file, std::string text, std::vector<Diagnostic>& diagnostics,
-                     const ReadFile& files) {
-    return GraphLoader(diagnostics, files).load(std::move(file), std::move(text));
+                     const ReadFile& files, const std::string& shipped) {
+    return GraphLoader(diagnostics, files, shipped).load(std::move(file), std::move(text));
 }
 
-GraphDesc parseGraphFile(const std::string& path, std::vector<Diagnostic>& diagnostics) {
+GraphDesc parseGraphFile(const std::string& path, std::vector<Diagnostic>& diagnostics,
+                         const std::string& shipped) {
     GraphDesc graph;
     if (std::optional<std::string> text = readBytes(path)) {
-        graph = parseGraph(path, std::move(*text), diagnostics, filesBeside(path));
+        graph = parseGraph(path, std::move(*text), diagnostics, filesBeside(path), shipped);
         if (graph.name.empty())
             graph.name = fs::path(path).stem().string();
         return graph;

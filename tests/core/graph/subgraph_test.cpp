@@ -3,6 +3,7 @@
 // Graphs that are used as passes of others.
 #include "hone/core/error.h"
 #include "hone/tests/support/graph_fixture.h"
+#include "hone/tests/support/temporary_folder.h"
 
 #include <algorithm>
 #include <map>
@@ -14,10 +15,6 @@ namespace {
 class SubgraphTest : public GraphTest {
 protected:
     CompiledGraph planWith(const std::string& text, const Overrides& overrides = {}) {
-        const ReadFile read = [this](const std::string& path) -> std::optional<std::string> {
-            const auto found = files.find(path);
-            return found != files.end() ? std::optional(found->second) : std::nullopt;
-        };
         std::vector<Diagnostic> diagnostics;
         const GraphDesc desc = parseGraph("test.json", text, diagnostics, read);
         CompiledGraph graph = compile(desc, catalog.catalog(), overrides, diagnostics);
@@ -30,6 +27,10 @@ protected:
         return executor->output("color").as<vec3>()[0].x;
     }
 
+    const ReadFile read = [this](const std::string& path) -> std::optional<std::string> {
+        const auto found = files.find(path);
+        return found != files.end() ? std::optional(found->second) : std::nullopt;
+    };
     std::map<std::string, std::string> files{{"add.json", R"({
             "hone": 2,
             "params": { "amount": { "type": "float", "default": 1 } },
@@ -180,6 +181,54 @@ TEST_F(SubgraphTest, DoesNotGrowWithoutBound) {
     ASSERT_FALSE(diagnostics.empty());
     EXPECT_TRUE(
         std::ranges::any_of(diagnostics, [](const Diagnostic& d) { return d.code == "E0104"; }));
+}
+
+/// Two folders with files of the same names, which add 1 or 100.
+class ShippedFilesTest : public SubgraphTest {
+protected:
+    ShippedFilesTest() {
+        for (const auto& [own, amount] : {std::pair(true, 1), std::pair(false, 100)}) {
+            const std::string text = R"({ "hone": 2, "inputs": { "color": "Radiance" }, "passes": {
+                "add": { "type": "add", "in": { "color": "$color" }, "params": { "amount": )" +
+                                     std::to_string(amount) +
+                                     R"( } } }, "outputs": { "color": "add.result" } })";
+            if (own)
+                files["add.json"] = text;
+            else
+                static_cast<void>(shipped.write("add.json", text));
+        }
+        static_cast<void>(shipped.write("user.json", R"({
+            "hone": 2, "inputs": { "color": "Radiance" },
+            "passes": { "part": { "graph": "add.json", "in": { "color": "$color" } } },
+            "outputs": { "color": "part.color" } })"));
+    }
+
+    float redWith(const std::string& part) {
+        std::vector<Diagnostic> diagnostics;
+        const GraphDesc desc = parseGraph("test.json", R"({
+            "hone": 2, "inputs": { "scene": "scene", "camera": "camera" },
+            "passes": {
+              "raster": { "type": "raster", "in": { "scene": "$scene", "camera": "$camera" } },
+              "part": { "graph": ")" + part + R"(", "in": { "color": "raster.color" } }
+            },
+            "outputs": { "color": "part.color" } })",
+                                          diagnostics, read, shipped.path(""));
+        CompiledGraph graph = compile(desc, catalog.catalog(), {}, diagnostics);
+        EXPECT_TRUE(diagnostics.empty()) << format(diagnostics);
+        return redOf(std::move(graph));
+    }
+
+    test::TemporaryFolder shipped;
+};
+
+TEST_F(ShippedFilesTest, AreTakenWhereAFileIsNotBesideTheGraph) {
+    const float added = redWith("add.json");
+    files.erase("add.json");
+    EXPECT_EQ(redWith("add.json"), added + 99);
+}
+
+TEST_F(ShippedFilesTest, NeverSeeThoseBesideTheGraph) {
+    EXPECT_EQ(redWith("user.json"), redWith("add.json") + 99);
 }
 
 TEST_F(SubgraphTest, ReadsNoFileOfAnotherFolderThroughALink) {
