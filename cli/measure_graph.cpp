@@ -19,16 +19,18 @@ Json readGraph(const std::string& path) {
     return Json::parse(file, nullptr, true, true);
 }
 
-bool isOutsideLoops(const PlannedNode& node) {
-    return node.type != nullptr && node.parent == kNoId;
+/// A pass of this file, outside its loops.
+bool isOutermost(const PlannedNode& node) {
+    return node.type != nullptr && node.parent == kNoId && node.graph == kNoId;
 }
 
-std::string rasterOf(const CompiledGraph& graph) {
+/// The raster image as an output of the file `written`.
+Json rasterOf(const CompiledGraph& graph, const Json& written) {
     for (const NamedValue& output : graph.outputs)
         if (output.name == "raster" && graph.values[output.value].type == types::kRadiance)
-            return graph.values[output.value].name;
+            return written["outputs"]["raster"];
     for (const PlannedNode& node : graph.nodes)
-        if (isOutsideLoops(node))
+        if (isOutermost(node))
             for (const OutPort& port : node.type->outputs)
                 if (port.type == types::kRadiance)
                     return node.name + "." + port.name;
@@ -44,14 +46,14 @@ MeasureGraph makeMeasureGraph(const std::string& path, const Catalog& catalog,
     const CompiledGraph written = loadGraph(path, catalog, overrides);
     MeasureGraph result;
     Json graph = readGraph(path);
-    Json outputs = {{"raster", rasterOf(written)}};
+    Json outputs = {{"raster", rasterOf(written, graph)}};
     const auto add = [&](GraphMetric metric, const std::string& value) {
         metric.output = "metric_" + std::to_string(result.metrics.size());
         outputs[metric.output] = value;
         result.metrics.push_back(std::move(metric));
     };
     for (const PlannedNode& node : written.nodes) {
-        if (!isOutsideLoops(node))
+        if (!isOutermost(node))
             continue;
         for (const OutPort& port : node.type->outputs) {
             if (port.type != types::kError)
@@ -73,6 +75,19 @@ MeasureGraph makeMeasureGraph(const std::string& path, const Catalog& catalog,
                 graph["passes"][twin] = std::move(pass);
                 add({name + "[" + other + "]", {}, node.name, other}, twin + "." + port.name);
             }
+        }
+    }
+    for (const PlannedGraph& used : written.graphs) {
+        if (used.parent != kNoId || used.graph != kNoId)
+            continue;
+        for (const NamedValue& output : used.outputs) {
+            if (output.value == kNoId)
+                continue; // switched off
+            const PlannedValue& value = written.values[output.value];
+            const bool is_made_there =
+                value.writer != kNoId && written.nodes[value.writer].graph != kNoId;
+            if (value.type == types::kError && is_made_there)
+                add({value.name, {}, used.name, ""}, used.name + "." + output.name);
         }
     }
     if (result.metrics.empty())

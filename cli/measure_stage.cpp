@@ -87,7 +87,7 @@ std::vector<float> standardError(std::span<const float> difference, uvec2 extent
 double msInLoops(const Executor& executor) {
     double ms = 0;
     for (const NodeReport& node : executor.nodes())
-        if (node.name.find('.') != std::string::npos)
+        if (executor.graph().findNode(node.name)->parent != kNoId)
             ms += node.ms;
     return ms;
 }

@@ -17,8 +17,8 @@ namespace {
 /// What may be pinned, for the nearest name.
 std::vector<std::string> pinnable(const CompiledGraph& graph) {
     std::vector<std::string> names;
-    for (const PlannedValue& value : graph.values)
-        if (value.writer != kNoId)
+    for (const NamedValue& value : graph.namedValues())
+        if (graph.values[value.value].writer != kNoId)
             names.push_back(value.name);
     return names;
 }
@@ -31,7 +31,7 @@ std::string problemOf(const CompiledGraph& graph, const PinRequest& request) {
                suggest(request.value, pinnable(graph), "it has");
     const PlannedValue& value = graph.values[id];
     if (value.writer == kNoId)
-        return request.value.starts_with('$')
+        return value.name.starts_with('$')
                    ? "this is an input of the graph; pin what a pass makes of it"
                    : "this is of the last frame; pin what it is a copy of";
     const PlannedNode& writer = graph.nodes[value.writer];

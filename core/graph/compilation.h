@@ -20,6 +20,7 @@ struct Scope {
     NodeId loop = kNoId;              ///< the innermost loop that it is in
     const GraphDesc* graph = nullptr; ///< null: a loop's body
     const PassDesc* use = nullptr;    ///< the pass that the graph is used as; null: the outermost
+    std::uint32_t planned = kNoId;    ///< index into CompiledGraph::graphs: the innermost used one
     std::string prefix;               ///< of its nodes' names: "refine."
     std::map<std::string, NodeId, std::less<>> nodes;
     std::map<std::string, ScopeId, std::less<>> graphs; ///< passes that are graphs

@@ -69,8 +69,20 @@ const PlannedParam* CompiledGraph::findParam(std::string_view param) const {
 }
 
 ValueId CompiledGraph::findValue(std::string_view value_name) const {
-    const auto found = std::ranges::find(values, value_name, &PlannedValue::name);
-    return found != values.end() ? static_cast<ValueId>(found - values.begin()) : kNoId;
+    const std::vector<NamedValue> known = namedValues();
+    const auto found = std::ranges::find(known, value_name, &NamedValue::name);
+    return found != known.end() ? found->value : kNoId;
+}
+
+std::vector<NamedValue> CompiledGraph::namedValues() const {
+    std::vector<NamedValue> result;
+    for (ValueId id = 0; id < values.size(); ++id)
+        result.push_back({values[id].name, id});
+    for (const PlannedGraph& graph : graphs)
+        for (const NamedValue& output : graph.outputs)
+            if (output.value != kNoId)
+                result.push_back({graph.name + "." + output.name, output.value});
+    return result;
 }
 
 } // namespace hone

@@ -61,6 +61,7 @@ struct PlannedNode {
     const PassType* type = nullptr; ///< null: a loop (or, before errors are out, an unknown type)
     NodeId parent = kNoId;          ///< the loop that it is in
     std::uint32_t loop = kNoId;     ///< index into CompiledGraph::loops, if it is one
+    std::uint32_t graph = kNoId;    ///< index into CompiledGraph::graphs: the innermost it is in
     std::vector<PlannedEdge> inputs;
     std::vector<PlannedOutput> outputs; ///< by port
     PassParams params;
@@ -140,6 +141,15 @@ struct NamedValue {
     ValueId value = kNoId;
 };
 
+/// A graph that is used as a pass: its passes are nodes like all others, and bear its name.
+struct PlannedGraph {
+    std::string name;            ///< "refine": of "refine.loop.trace"
+    std::string file;            ///< as it was written: "parts/refine.json"
+    NodeId parent = kNoId;       ///< the loop that it is in
+    std::uint32_t graph = kNoId; ///< index into CompiledGraph::graphs: the one that it is in
+    std::vector<NamedValue> outputs;
+};
+
 /// One place that a graph parameter feeds.
 struct ParamUse {
     NodeId node = kNoId;
@@ -166,6 +176,7 @@ struct CompiledGraph {
     std::vector<PlannedParam> params;
     std::vector<PlannedNode> nodes; ///< in the order of the file, a loop before its body
     std::vector<PlannedLoop> loops;
+    std::vector<PlannedGraph> graphs; ///< one before those that it uses
     std::vector<PlannedHistory> histories;
     std::vector<PlannedValue> values;
     std::vector<PlannedMemory> memories;
@@ -177,8 +188,10 @@ struct CompiledGraph {
 
     [[nodiscard]] const PlannedNode* findNode(std::string_view node_name) const;
     [[nodiscard]] const PlannedParam* findParam(std::string_view param) const;
-    /// By "pass.port", "loop.carried", "loop.stats", "loop.pass.port" or "$input".
+    /// By "pass.port", "loop.carried", "loop.stats", "loop.pass.port", "graph.output" or "$input".
     [[nodiscard]] ValueId findValue(std::string_view value_name) const;
+    /// All that findValue() knows. What is switched off is not there.
+    [[nodiscard]] std::vector<NamedValue> namedValues() const;
 };
 
 /// Checks a graph and plans it: names resolved, types and parameters checked, unused passes culled,

@@ -25,12 +25,21 @@ public:
     void declareGraph(const GraphDesc& desc, ScopeId parent, NodeId loop, const PassDesc* use,
                       const std::string& prefix) {
         const ScopeId id = static_cast<ScopeId>(c_->scopes.size());
-        if (use != nullptr)
+        std::uint32_t used = kNoId;
+        if (use != nullptr) {
             c_->scopes[parent].graphs.emplace(use->name.text, id);
+            used = static_cast<std::uint32_t>(c_->graph.graphs.size());
+            c_->graph.graphs.push_back({.name = prefix.substr(0, prefix.size() - 1),
+                                        .file = use->graph.text,
+                                        .parent = loop,
+                                        .graph = c_->scopes[parent].planned,
+                                        .outputs = {}});
+        }
         c_->scopes.push_back({.parent = parent,
                               .loop = loop,
                               .graph = &desc,
                               .use = use,
+                              .planned = used,
                               .prefix = prefix,
                               .nodes = {},
                               .graphs = {},
@@ -212,6 +221,7 @@ private:
                               .loop = id,
                               .graph = nullptr,
                               .use = nullptr,
+                              .planned = c_->scopes[around].planned,
                               .prefix = name + ".",
                               .nodes = {},
                               .graphs = {},
@@ -272,6 +282,7 @@ private:
             PlannedNode& node = c_->graph.nodes.emplace_back();
             node.name = name;
             node.parent = loop;
+            node.graph = c_->scopes[scope].planned;
             c_->written.push_back({.desc = &pass, .scope = scope, .edges = {}, .conditions = {}});
             c_->scopes[scope].nodes.emplace(pass.name.text, id);
             if (pass.loop)

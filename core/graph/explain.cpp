@@ -453,7 +453,7 @@ std::vector<std::string> explainable(const CompiledGraph& graph) {
     std::vector<std::string> names;
     for (const PlannedNode& node : graph.nodes)
         names.push_back(node.name);
-    for (const PlannedValue& value : graph.values)
+    for (const NamedValue& value : graph.namedValues())
         names.push_back(value.name);
     for (const NamedValue& output : graph.outputs)
         names.push_back(output.name);

@@ -165,8 +165,8 @@ void resolveOutputs(Compilation& c, ScopeId id) {
         const ValueId value = resolver.find(output.from);
         if (value != kNoId && !output.type.text.empty())
             c.typed_outputs.push_back({&output, value});
-        if (scope.use == nullptr)
-            c.graph.outputs.push_back({output.name.text, value});
+        (scope.use == nullptr ? c.graph.outputs : c.graph.graphs[scope.planned].outputs)
+            .push_back({output.name.text, value});
     }
     if (scope.graph->outputs.empty())
         c.reporter.error("E0208", scope.graph->outputs_place, "the graph has no outputs",

@@ -35,6 +35,9 @@ public:
         }
         for (NamedValue& output : c_->graph.outputs)
             output.value = live(output.value);
+        for (PlannedGraph& graph : c_->graph.graphs)
+            for (NamedValue& output : graph.outputs)
+                output.value = live(output.value);
     }
 
 private:

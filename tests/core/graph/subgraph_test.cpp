@@ -183,6 +183,19 @@ TEST_F(SubgraphTest, DoesNotGrowWithoutBound) {
         std::ranges::any_of(diagnostics, [](const Diagnostic& d) { return d.code == "E0104"; }));
 }
 
+TEST_F(SubgraphTest, NamesItsOutputsAsItsUserDoes) {
+    const CompiledGraph graph = planWith(outer);
+    EXPECT_EQ(graph.findValue("part.out"), graph.findValue("part.second.add.result"));
+    EXPECT_EQ(graph.findValue("part.second.color"), graph.findValue("part.second.add.result"));
+    EXPECT_EQ(graph.findValue("part.same"), graph.findValue("raster.color"));
+    EXPECT_EQ(graph.findValue("part.add"), kNoId);
+    EXPECT_EQ(graph.findNode("raster")->graph, kNoId);
+    const PlannedGraph& second = graph.graphs.at(graph.findNode("part.second.add")->graph);
+    EXPECT_EQ(second.name, "part.second");
+    EXPECT_EQ(second.file, "../add.json");
+    EXPECT_EQ(graph.graphs.at(second.graph).name, "part");
+}
+
 /// Two folders with files of the same names, which add 1 or 100.
 class ShippedFilesTest : public SubgraphTest {
 protected:
