@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/cli/view_choice.h"
 
+#include "hone/cli/commands.h"
 #include "hone/core/error.h"
 #include "hone/core/graph/executor.h"
+#include "hone/passes/sort/error_key.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace hone::cli {
@@ -49,14 +52,20 @@ std::vector<std::pair<vec3, float>> mirrorsOf(const Scene& scene) {
     return mirrors;
 }
 
-/// The graph with nothing asked for but the order and what the raster image sees.
+/// The graph with nothing asked for but how wrong its pixels are, so that nothing is traced.
 CompiledGraph compileErrors(const std::string& path, const Catalog& catalog) {
     std::vector<Diagnostic> diagnostics;
     GraphDesc desc = parseGraphFile(path, diagnostics, catalog.graphs);
-    const Place place = desc.outputs_place;
-    desc.outputs = {{{"order", place}, {"sort.order", place}},
-                    {{"depth", place}, {"raster.depth", place}}};
-    return compileOrThrow(desc, catalog, {}, std::move(diagnostics));
+    const auto is_error = [](const OutputDesc& output) { return output.name.text == "error"; };
+    if (desc.is_readable && std::ranges::none_of(desc.outputs, is_error))
+        throw GraphError(path + ": cannot choose views by it: it has no output \"error\"");
+    std::erase_if(desc.outputs, std::not_fn(is_error));
+    CompiledGraph graph = compileOrThrow(desc, catalog, {}, std::move(diagnostics));
+    const PlannedValue& error = graph.values[graph.outputs.front().value];
+    if (!(error.type == types::kError))
+        throw GraphError(path + ": cannot choose views by it: its output \"error\" is " +
+                         std::string(error.type.name) + ", no Error");
+    return graph;
 }
 
 bool seesEnough(std::span<const float> depth, float radius) {
@@ -101,19 +110,25 @@ std::vector<CameraDesc> candidateViews(const Scene& scene, const CameraDesc& lik
 std::vector<ChosenView> chooseViewsByShare(const std::string& graph_path, const Session& session,
                                            const Devices& devices, const Scene& scene,
                                            const CameraDesc& like, std::span<const double> shares) {
-    Executor executor(compileErrors(graph_path, session.catalog()), session.catalog(), devices);
-    executor.setScene(scene);
-    executor.setExtent(kSmall);
+    const Catalog catalog = session.catalog();
+    Executor errors(compileErrors(graph_path, catalog), catalog, devices);
+    Executor raster(loadGraph(findGraph("raster"), catalog, {}), catalog, devices);
+    for (Executor* executor : {&errors, &raster}) {
+        executor->setScene(scene);
+        executor->setExtent(kSmall);
+    }
     const float radius = glm::distance(scene.bounds.high, scene.bounds.center());
 
     std::vector<ChosenView> seen;
     for (const CameraDesc& view : candidateViews(scene, like, kCandidates)) {
-        executor.setCamera(makeCamera(view));
-        executor.run();
-        if (seesEnough(executor.output("depth").as<float>(), radius))
-            seen.push_back({view, 0,
-                            static_cast<double>(executor.counters().get("error_pixels")) /
-                                (kSmall.x * kSmall.y)});
+        raster.setCamera(makeCamera(view));
+        raster.run();
+        if (!seesEnough(raster.output("depth").as<float>(), radius))
+            continue;
+        errors.setCamera(makeCamera(view));
+        errors.run();
+        const auto wrong = std::ranges::count_if(errors.output("error").as<vec2>(), isErrorPixel);
+        seen.push_back({view, 0, static_cast<double>(wrong) / (kSmall.x * kSmall.y)});
     }
     if (seen.size() < shares.size())
         throw SceneError(scene.name + ": only " + std::to_string(seen.size()) + " of " +

@@ -12,7 +12,7 @@ namespace hone::cli {
 /// A view of a scene and how much of it a graph takes for wrong.
 struct ChosenView {
     CameraDesc camera;
-    double wanted_share = 0; ///< of error pixels (sort's counter error_pixels)
+    double wanted_share = 0; ///< of error pixels, as sort counts them
     double share = 0;        ///< as measured at a small size
 };
 
@@ -23,9 +23,9 @@ struct ChosenView {
                                                      std::size_t count);
 
 /// For each share the candidate whose share of error pixels is nearest to it, no candidate twice.
-/// The graph at `graph_path` must order with a pass "sort" of a pass "raster"; both run at
-/// a small size. `like` gives the field of view and the lens. Throws GraphError if the graph has no
-/// such passes, SceneError if no candidate sees anything.
+/// The output "error" of the graph at `graph_path` says what is wrong, raster.json what is seen;
+/// both run at a small size. `like` gives the field of view and the lens. Throws GraphError if the
+/// graph has no such output of type Error, SceneError if no candidate sees anything.
 [[nodiscard]] std::vector<ChosenView>
 chooseViewsByShare(const std::string& graph_path, const Session& session, const Devices& devices,
                    const Scene& scene, const CameraDesc& like, std::span<const double> shares);
