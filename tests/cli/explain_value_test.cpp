@@ -20,6 +20,10 @@ TEST(ExplainValue, SpeaksOfShippedGraphs) {
     EXPECT_NE(text.find("updates refine.image where it lies"), std::string::npos) << text;
 }
 
+TEST(ExplainValue, KnowsTheOutputsOfGraphsThatAreUsedAsPasses) {
+    EXPECT_EQ(explained("dof", "refine.image"), explained("dof", "refine.loop.image"));
+}
+
 TEST(ExplainValue, OffersTheNearestName) {
     try {
         explained("sir", "refine.blend.imag");

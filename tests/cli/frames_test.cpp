@@ -52,7 +52,7 @@ TEST(RenderFrames, DoNothingAgainThatDoesNotSeeTheCamera) {
             runs[pass["name"]] = pass["runs"];
         for (const char* kept : {"shadow_map", "probe", "occlusion"})
             EXPECT_EQ(runs[kept], frame == 0 ? 1 : 0) << kept << " of frame " << frame;
-        for (const char* anew : {"raster", "reflection", "combine", "sort", "refine"})
+        for (const char* anew : {"raster", "reflection", "combine", "sort", "refine.loop"})
             EXPECT_EQ(runs[anew], 1) << anew << " of frame " << frame;
     }
 }

@@ -54,7 +54,8 @@ TEST(GraphsReadme, HasOnlyExamplesWithoutAnyProblem) {
     }
     for (const Example& example : all) {
         std::vector<Diagnostic> diagnostics;
-        const GraphDesc desc = parseGraphFile(folder.path(example.name), diagnostics);
+        const GraphDesc desc =
+            parseGraphFile(folder.path(example.name), diagnostics, HONE_SOURCE_DIR "/graphs");
         const CompiledGraph graph = compile(desc, {&passes, &tracers, &shaders}, {}, diagnostics);
         EXPECT_TRUE(diagnostics.empty()) << format(diagnostics);
         for (const PlannedNode& node : graph.nodes)

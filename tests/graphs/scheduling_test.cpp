@@ -87,7 +87,7 @@ TEST_F(Scheduling, KeepsMapsAndProbesWhenTheCameraMoves) {
     }
     for (const char* kept : {"shadow_map", "probe", "occlusion"})
         EXPECT_EQ(runsOf(*executor, kept), 1u) << kept;
-    for (const char* anew : {"raster", "shadow", "reflection", "combine", "sort", "refine"})
+    for (const char* anew : {"raster", "shadow", "reflection", "combine", "sort", "refine.loop"})
         EXPECT_EQ(runsOf(*executor, anew), 3u) << anew;
 }
 
@@ -130,7 +130,8 @@ TEST_F(Scheduling, VisitsBadPixelsForMoreSamplesFirst) {
         load("paper_corrected", {{"samples", "8"}, {"max_count", "4"}, {"batch", "100"}});
     refined->run({.max_iterations = 1});
     const std::span<uint> counts = refined->output("counts").as<uint>();
-    const std::span<Accumulated> taken = refined->find("refine.accumulation")->as<Accumulated>();
+    const std::span<Accumulated> taken =
+        refined->find("refine.loop.accumulation")->as<Accumulated>();
     float worst_left = 0, least_taken = 1e30f;
     const std::span<vec2> errors = refined->output("error").as<vec2>();
     std::size_t visited = 0;

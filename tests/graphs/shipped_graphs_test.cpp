@@ -19,7 +19,8 @@ TEST(ShippedGraphs, AreWithoutAnyProblem) {
     TraceBackendRegistry tracers;
     registerTraceBackends(tracers);
     std::size_t graphs = 0;
-    for (const auto& file : std::filesystem::directory_iterator(HONE_SOURCE_DIR "/graphs")) {
+    for (const auto& file :
+         std::filesystem::recursive_directory_iterator(HONE_SOURCE_DIR "/graphs")) {
         if (file.path().extension() != ".json" || file.path().string().ends_with(".schema.json"))
             continue;
         ++graphs;

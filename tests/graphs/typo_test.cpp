@@ -204,7 +204,8 @@ TEST(Typos, AreFoundWhereTheyAreAndWhatWasMeantIsSuggestedFirst) {
             std::string text = graph.text;
             text.replace(word.at, word.text.size(), typo);
             std::vector<Diagnostic> diagnostics;
-            const GraphDesc desc = parseGraph(graph.file, text, diagnostics);
+            const GraphDesc desc = parseGraph(graph.file, text, diagnostics,
+                                              filesBeside(HONE_SOURCE_DIR "/graphs/sir.json"));
             (void)compile(desc, {&passes, &tracers}, {}, diagnostics);
 
             // The place of a word begins at its quote.
