@@ -22,6 +22,7 @@ TEST(ExplainValue, SpeaksOfShippedGraphs) {
 
 TEST(ExplainValue, KnowsTheOutputsOfGraphsThatAreUsedAsPasses) {
     EXPECT_EQ(explained("dof", "refine.image"), explained("dof", "refine.loop.image"));
+    EXPECT_EQ(explained("table1", "dof.color"), explained("table1", "dof.refine.loop.image"));
 }
 
 TEST(ExplainValue, OffersTheNearestName) {

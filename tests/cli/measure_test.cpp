@@ -96,6 +96,15 @@ TEST_F(Measure, GivesTheOracleAGainOfOne) {
 }
 
 // Mirrors off: the mirror's metric says nothing, and little is left for it to say.
+// table1.json is dof.json with other parameters: what is inside is not its own.
+TEST_F(Measure, JudgesTheErrorsOfGraphsThatAreUsedAsPasses) {
+    const CommandRun measured = run({"table1", "--scene", "builtin:cornell", "--json"});
+    ASSERT_EQ(measured.code, kOk) << measured.err;
+    const nlohmann::json report = measured.json();
+    EXPECT_EQ(report["metrics"][0]["name"], "dof.propagate.error");
+    EXPECT_GT(report["views"][0]["refinement"]["points"].size(), 1u);
+}
+
 TEST_F(Measure, LeavesOneEffectToBeJudged) {
     const auto mse = [](const char* effect) {
         const CommandRun measured = run(

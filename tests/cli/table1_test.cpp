@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/cli/commands.h"
 #include "hone/cli/table1.h"
+#include "hone/core/error.h"
 #include "hone/tests/cli/command_run.h"
 
 #include <gtest/gtest.h>
@@ -112,6 +113,19 @@ TEST(ViewChoice, TakesTheViewWhoseShareIsNearest) {
     EXPECT_NE(views[0].camera.name, views[1].camera.name);
     EXPECT_GT(views[0].share, views[1].share);
     EXPECT_NEAR(views[1].share, 0.05, 0.04);
+}
+
+TEST(ViewChoice, RefusesGraphsThatSayNothingOfErrors) {
+    const Session session;
+    const Scene scene = loadScene("builtin:cornell");
+    try {
+        static_cast<void>(
+            chooseViewsByShare(findGraph("prt"), session, {}, scene, scene.camera(""), {}));
+        FAIL() << "prt.json has no output \"error\"";
+    } catch (const GraphError& problem) {
+        EXPECT_NE(std::string(problem.what()).find("it has no output \"error\""), std::string::npos)
+            << problem.what();
+    }
 }
 
 TEST(Table1, IsMeasuredByTheCommand) {

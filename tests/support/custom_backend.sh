@@ -14,6 +14,7 @@ cmake --install "$build" --prefix "$work/first" >install.log
 mv first prefix # an installed tree may be moved
 hone=$work/prefix/bin/hone
 "$hone" check prt | grep -q "^$work/prefix/" # its own graphs, not the source tree's
+"$hone" check oracle table1 >check.log # with all graphs that they use
 cp -r "$source/examples/custom_backend" mine
 cmake -S mine -B built -DCMAKE_PREFIX_PATH="$work/prefix" >configure.log
 cmake --build built >build.log
