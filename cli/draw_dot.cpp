@@ -88,7 +88,7 @@ public:
                 kInk +
                 "\"]\n"
                 "edge [fontname=\"Helvetica\", fontsize=8, arrowsize=0.6, penwidth=1.2]\n";
-        writeScope(kNoId);
+        writeScope(kNoId, kNoId);
         writeOutputs();
         for (NodeId id = 0; id < graph_->nodes.size(); ++id)
             writeEdges(id);
@@ -121,16 +121,31 @@ private:
 
     // ---- nodes
 
-    void writeScope(NodeId scope) {
+    /// What is in a loop and in a graph that is used as a pass, and in none within them.
+    void writeScope(NodeId loop, std::uint32_t graph) {
         for (NodeId id = 0; id < graph_->nodes.size(); ++id) {
             const PlannedNode& node = graph_->nodes[id];
-            if (node.parent != scope)
+            if (node.parent != loop || node.graph != graph)
                 continue;
             if (node.loop == kNoId)
                 writePass(id);
             else
                 writeLoop(id);
         }
+        for (std::uint32_t used = 0; used < graph_->graphs.size(); ++used)
+            if (graph_->graphs[used].parent == loop && graph_->graphs[used].graph == graph)
+                writeGraph(used);
+    }
+
+    void writeGraph(std::uint32_t used) {
+        const PlannedGraph& graph = graph_->graphs[used];
+        text_ += "subgraph cluster_graph_" + std::to_string(used) +
+                 " {\ngraph [style=\"rounded,dashed\", color=\"#9fb3c8\", labeljust=l, margin=12, "
+                 "tooltip=\"" +
+                 escape(graph.name) + "\", label=<" + bold(lastOf(graph.name)) + " " +
+                 small(escape(graph.file)) + ">]\n";
+        writeScope(graph.parent, used);
+        text_ += "}\n";
     }
 
     static std::string nameOf(NodeId id) { return "n" + std::to_string(id); }
@@ -198,7 +213,7 @@ private:
             outputs += cell("o" + std::to_string(port), text);
         }
         std::string head = "<FONT COLOR=\"" + std::string(is_culled ? kFaint : kInk) + "\">" +
-                           bold(shortName(node)) + "</FONT> " + small(escape(node.type->name));
+                           bold(lastOf(node.name)) + "</FONT> " + small(escape(node.type->name));
         if (is_culled)
             head += "<BR/>" + small("not run: " + escape(node.culled));
         if (node.on != Placement::kAuto)
@@ -216,7 +231,7 @@ private:
         const PlannedNode& node = graph_->nodes[id];
         const PlannedLoop& loop = graph_->loops[node.loop];
         const bool is_culled = !node.culled.empty();
-        std::string label = bold(shortName(node)) + " " +
+        std::string label = bold(lastOf(node.name)) + " " +
                             small("loop" + (is_culled ? ", not run: " + escape(node.culled) : ""));
         if (const NodeReport* report = reportOf(node))
             label += " " + small(timesOf(*report), kInk);
@@ -258,7 +273,7 @@ private:
                       "<TR><TD>" + small("each iteration begins with") + "</TD></TR>" +
                           row(carries),
                       "#9fb3c8", "white", is_culled, node.name);
-        writeScope(id);
+        writeScope(id, node.graph);
         writeNode(nameOf(id) + "_end",
                   row(nexts) + "<TR><TD PORT=\"stop\">" +
                       small("again, until " + escape(stopText(*graph_, loop))) + "</TD></TR>" +
@@ -371,13 +386,8 @@ private:
 
     // ---- facts
 
-    /// Without the loops around it, whose boxes say them.
-    std::string shortName(const PlannedNode& node) const {
-        return node.parent == kNoId
-                   ? node.name
-                   : node.name.substr(
-                         std::min(node.name.size(), graph_->nodes[node.parent].name.size() + 1));
-    }
+    /// A name without the loops and graphs around it, whose boxes say them.
+    static std::string lastOf(const std::string& name) { return name.substr(name.rfind('.') + 1); }
 
     std::size_t depthOf(NodeId id) const {
         std::size_t depth = 0;

@@ -84,6 +84,18 @@ TEST(Draw, WritesDotToStandardOutput) {
     EXPECT_TRUE(run.out.ends_with("}\n"));
 }
 
+TEST(Draw, PutsGraphsThatAreUsedAsPassesIntoBoxes) {
+    const CommandRun run = runHone({"draw", "table1"});
+    EXPECT_EQ(run.code, kOk) << run.err;
+    const std::size_t dof = run.out.find("subgraph cluster_graph_0 {");
+    const std::size_t refine = run.out.find("subgraph cluster_graph_1 {");
+    ASSERT_NE(refine, std::string::npos) << run.out;
+    EXPECT_LT(dof, run.out.find("<B>shadow_map</B>"));
+    EXPECT_LT(run.out.find("<B>shadow_map</B>"), refine); // which is inside, and last
+    EXPECT_LT(refine, run.out.find("<B>loop</B>"));
+    EXPECT_NE(run.out.find(">parts/refine.json<"), std::string::npos) << run.out;
+}
+
 TEST(Draw, WritesAPictureThroughGraphviz) {
     if (!hasDot())
         GTEST_SKIP() << "Graphviz' dot is not installed";
