@@ -17,6 +17,7 @@ public:
         for (ScopeId id = 0; id < c_->scopes.size(); ++id)
             if (c_->scopes[id].graph != nullptr) {
                 declareParams(id);
+                markLost(id, c_->scopes[id].graph->passes);
                 if (c_->scopes[id].use != nullptr)
                     feedGraph(id);
                 override([&](const std::string& path) {
@@ -376,6 +377,17 @@ private:
         const auto found = graph.params.find(std::get<std::string>(text.value).substr(1));
         if (found != graph.params.end())
             read_.insert(found->second);
+    }
+
+    /// What is handed to graphs that could not be read: that is the report.
+    void markLost(ScopeId scope, const std::vector<PassDesc>& passes) {
+        for (const PassDesc& pass : passes) {
+            if (pass.loop)
+                markLost(scope, pass.loop->passes);
+            if (!pass.graph.text.empty() && pass.body == nullptr)
+                for (const ParamText& text : pass.params)
+                    markRead(scope, text);
+        }
     }
 
     void reportUnread() {
