@@ -2,13 +2,10 @@
 #include "hone/cli/bench_graph.h"
 
 #include "hone/cli/commands.h"
+#include "hone/cli/graph_document.h"
 #include "hone/core/error.h"
 
-#include <nlohmann/json.hpp>
-
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 namespace hone::cli {
 
@@ -23,12 +20,8 @@ std::string defaultBenchScene() {
 
 CompiledGraph makeBenchGraph(const Catalog& catalog) {
     using Json = nlohmann::ordered_json;
-    const std::string path = findGraph("sir");
-    std::ifstream file(path);
-    if (!file)
-        throw GraphError(path + ": cannot be read");
-    Json graph = Json::parse(file);
-    Json& passes = graph["passes"];
+    GraphDocument graph = readGraphDocument(findGraph("sir"));
+    Json& passes = graph.json["passes"];
     const Json view = {{"scene", "$scene"}, {"camera", "$camera"}};
     passes["visibility"] = {{"type", "bench.visibility"}, {"in", view}};
     passes["depth_only"] = {{"type", "bench.depth_only"}, {"in", view}};
@@ -39,18 +32,14 @@ CompiledGraph makeBenchGraph(const Catalog& catalog) {
                             {"params", {{"strategy", strategy}, {"batch", kBenchBatch}}}};
     passes["tonemap"] = {{"type", "tonemap"}, {"in", {{"color", "refine.image"}}}};
     // What is no output, or leads to one, would be culled.
-    Json& outputs = graph["outputs"];
+    Json& outputs = graph.json["outputs"];
     outputs["visibility"] = "visibility.gbuffer";
     outputs["depth_only"] = "depth_only.depth";
     outputs["noise"] = "noise.noisy";
     outputs["select"] = "select.order";
     outputs["radix"] = "radix.order";
     outputs["display"] = "tonemap.display";
-
-    std::vector<Diagnostic> diagnostics;
-    const GraphDesc desc = parseGraph("bench of " + path, graph.dump(2), diagnostics,
-                                      filesBeside(path), catalog.graphs);
-    return compileOrThrow(desc, catalog, {}, std::move(diagnostics));
+    return compileDocument(graph, "as it is timed", catalog, {});
 }
 
 Traffic trafficOf(const CompiledGraph& graph, std::string_view node_name, std::size_t pixels) {

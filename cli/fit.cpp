@@ -6,6 +6,7 @@
 // Every fourth view is held out: weights are fitted to the others, and what they are worth is said
 // of views that they have not seen.
 #include "hone/cli/commands.h"
+#include "hone/cli/graph_document.h"
 #include "hone/cli/json.h"
 #include "hone/cli/measure_stage.h"
 #include "hone/core/error.h"
@@ -15,7 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
+#include <filesystem>
 #include <ostream>
 
 namespace hone::cli {
@@ -33,24 +34,35 @@ struct Fit {
     OverViews spearman, gain; ///< of the combination, over the held-out views
 };
 
-/// What a combiner combines: "shadow.error".
-std::vector<std::string> edgesOf(const CompiledGraph& graph, const std::string& pass) {
-    std::vector<std::string> names;
-    for (const PlannedEdge& edge : graph.findNode(pass)->inputs)
-        names.push_back(graph.values[edge.value].name);
-    return names;
+/// What a combiner combines, as indices into stage.metrics(). Throws GraphError for what is no
+/// metric: a value that a loop carries, or that of the last frame.
+std::vector<std::size_t> metricsOf(const MeasureStage& stage, const std::string& pass) {
+    std::vector<std::size_t> indices;
+    for (const PlannedEdge& edge : stage.graph().findNode(pass)->inputs) {
+        const std::string& value = stage.graph().values[edge.value].name;
+        const auto metric = std::ranges::find(stage.metrics(), value, &GraphMetric::name);
+        if (metric == stage.metrics().end())
+            throw GraphError(stage.graph().file + ": \"" + pass + "\" combines \"" + value +
+                             "\", whose weight cannot be fitted: only what a pass outside loops "
+                             "makes of this frame can be judged");
+        indices.push_back(static_cast<std::size_t>(metric - stage.metrics().begin()));
+    }
+    return indices;
 }
 
 /// What a combiner's weights are fitted to.
 class FitData {
 public:
     FitData(const MeasureStage& stage, const std::string& pass)
-        : names_(edgesOf(stage.graph(), pass)), train_(names_.size()), held_out_(names_.size()) {}
+        : metrics_(metricsOf(stage, pass)), train_(metrics_.size()), held_out_(metrics_.size()) {
+        for (const std::size_t metric : metrics_)
+            names_.push_back(stage.metrics()[metric].name);
+    }
 
     void add(const JudgedView& view, bool is_held_out) {
         std::vector<std::vector<float>> metrics;
-        for (const std::string& name : names_)
-            metrics.push_back(std::ranges::find(view.metrics, name, &MetricPlanes::name)->expect);
+        for (const std::size_t metric : metrics_)
+            metrics.push_back(view.metrics[metric].expect);
         (is_held_out ? held_out_ : train_).add(metrics, view.error.max);
         (is_held_out ? held_out_names_ : train_names_).push_back(view.name);
         if (is_held_out)
@@ -96,6 +108,7 @@ private:
         RealError error;
     };
 
+    std::vector<std::size_t> metrics_;
     std::vector<std::string> names_;
     SquaredResidual train_, held_out_;
     std::vector<std::string> train_names_, held_out_names_;
@@ -110,10 +123,13 @@ std::string combinerOf(const MeasureStage& stage, const std::string& graph) {
             combiners.push_back(metric.pass);
     std::vector<std::string> last = combiners;
     for (const std::string& combiner : combiners)
-        for (const std::string& edge : edgesOf(stage.graph(), combiner))
-            std::erase(last, edge.substr(0, edge.find('.')));
+        for (const PlannedEdge& edge : stage.graph().findNode(combiner)->inputs) {
+            const std::string& value = stage.graph().values[edge.value].name;
+            std::erase(last, value.substr(0, value.find('.')));
+        }
     if (last.empty())
-        throw GraphError(graph + ": no pass of type combine outside loops, so no weights to fit");
+        throw GraphError(graph + ": no pass of type combine outside loops and used graphs, so no "
+                                 "weights to fit");
     if (last.size() > 1)
         throw GraphError(graph + ": which pass of type combine is to be fitted, \"" + last[0] +
                          "\" or \"" + last[1] + "\"? Combine them, or leave one");
@@ -127,12 +143,40 @@ std::vector<double> weightsOf(const CompiledGraph& graph, const std::string& pas
     return weights;
 }
 
-/// The graph file with other weights, in mode linear.
-void writeGraph(const std::string& path, const std::string& graph_path, const std::string& pass,
+/// Throws before hours of measuring if the fitted graph could not be written there, or not find its
+/// files.
+void requireOutput(const std::string& path, const GraphDocument& graph) {
+    namespace fs = std::filesystem;
+    const auto folderOf = [](const fs::path& file) {
+        return file.has_parent_path() ? file.parent_path() : fs::path(".");
+    };
+    const fs::path folder = folderOf(path), own = folderOf(graph.path());
+    std::error_code ignored; // one that is not there is another one
+    if (const std::string file = graph.fileBeside();
+        !file.empty() && !fs::equivalent(folder, own, ignored))
+        throw InputError(path + ": would not find \"" + file + "\", which lies beside " +
+                         graph.path() + "; write the fitted graph there, too: -o " +
+                         (own / fs::path(path).filename()).string());
+    requireWritableDirectory(folder.string());
+}
+
+/// Takes parameters out that nothing reads any more.
+void dropUnreadParams(Json& graph) {
+    if (!graph.contains("params"))
+        return;
+    const std::string passes = graph["passes"].dump();
+    std::vector<std::string> unread;
+    for (const auto& [name, declaration] : graph["params"].items())
+        if (passes.find("$" + name + "\"") == std::string::npos)
+            unread.push_back(name);
+    for (const std::string& name : unread)
+        graph["params"].erase(name);
+}
+
+/// Writes the graph with other weights, in mode linear.
+void writeGraph(const std::string& path, GraphDocument graph, const std::string& pass,
                 std::span<const double> weights) {
-    std::ifstream file(graph_path);
-    Json graph = Json::parse(file, nullptr, true, true);
-    Json& node = graph["passes"][pass];
+    Json& node = graph.json["passes"][pass];
     node["params"]["mode"] = "linear";
     Json& edges = node["in"]["errors"];
     if (!edges.is_array())
@@ -142,7 +186,8 @@ void writeGraph(const std::string& path, const std::string& graph_path, const st
             edges[k] = {{"from", edges[k]}};
         edges[k]["weight"] = static_cast<float>(weights[k]);
     }
-    const std::string text = graph.dump(2) + "\n";
+    dropUnreadParams(graph.json);
+    const std::string text = graph.json.dump(2) + "\n";
     writeFileAtomically(path, std::as_bytes(std::span(text)));
 }
 
@@ -180,6 +225,9 @@ void printTable(const std::vector<Fit>& fits, const std::vector<std::string>& na
 } // namespace
 
 int fit(const FitArguments& arguments, const Console& console) {
+    GraphDocument graph = readGraphDocument(findGraph(arguments.graph));
+    if (!arguments.output.empty())
+        requireOutput(arguments.output, graph);
     MeasureStage stage(arguments, console);
     const std::string pass = combinerOf(stage, arguments.graph);
     FitData data(stage, pass);
@@ -206,7 +254,7 @@ int fit(const FitArguments& arguments, const Console& console) {
     if (arguments.method != "random")
         fits.push_back(data.judge("nnls", fitNonNegative(data.train())));
     if (!arguments.output.empty())
-        writeGraph(arguments.output, findGraph(arguments.graph), pass, fits.back().weights);
+        writeGraph(arguments.output, std::move(graph), pass, fits.back().weights);
 
     if (arguments.json) {
         Json rows = Json::array();

@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/cli/measure_graph.h"
 
+#include "hone/cli/graph_document.h"
 #include "hone/core/error.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
-#include <fstream>
 
 namespace hone::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// The file as it is; it was read without a problem before.
-Json readGraph(const std::string& path) {
-    std::ifstream file(path);
-    return Json::parse(file, nullptr, true, true);
-}
 
 /// A pass of this file, outside its loops.
 bool isOutermost(const PlannedNode& node) {
@@ -45,7 +37,8 @@ MeasureGraph makeMeasureGraph(const std::string& path, const Catalog& catalog,
                               const Overrides& overrides) {
     const CompiledGraph written = loadGraph(path, catalog, overrides);
     MeasureGraph result;
-    Json graph = readGraph(path);
+    GraphDocument document = readGraphDocument(path);
+    Json& graph = document.json;
     Json outputs = {{"raster", rasterOf(written, graph)}};
     const auto add = [&](GraphMetric metric, const std::string& value) {
         metric.output = "metric_" + std::to_string(result.metrics.size());
@@ -93,11 +86,7 @@ MeasureGraph makeMeasureGraph(const std::string& path, const Catalog& catalog,
     if (result.metrics.empty())
         throw GraphError(path + ": nothing to judge: no pass outside loops makes an Error");
     graph["outputs"] = std::move(outputs);
-
-    std::vector<Diagnostic> diagnostics;
-    const GraphDesc desc = parseGraph("measurement of " + path, graph.dump(2), diagnostics,
-                                      filesBeside(path), catalog.graphs);
-    result.graph = compileOrThrow(desc, catalog, overrides, std::move(diagnostics));
+    result.graph = compileDocument(document, "as it is measured", catalog, overrides);
     return result;
 }
 
