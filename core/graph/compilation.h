@@ -140,6 +140,10 @@ private:
     [[nodiscard]] ValueId findOutput(const Word& from);
     [[nodiscard]] ValueId findIn(const Word& from, NodeId id, std::string_view rest);
     [[nodiscard]] ValueId findInGraph(const Word& from, ScopeId graph, std::string_view output);
+    void addSources(std::vector<std::string>& sources, const std::string& name, NodeId id,
+                    const std::string& rest) const;
+    void addGraphSources(std::vector<std::string>& sources, const std::string& name, ScopeId graph,
+                         const std::string& rest) const;
     void reportUnknownPass(const Word& from, const std::string& first, std::string_view port);
     void reportUnknownOutput(const Word& from, NodeId id);
 

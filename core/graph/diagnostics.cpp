@@ -106,12 +106,18 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
     if (word.empty() || word.size() > kLongest)
         return "";
     std::string best;
-    std::size_t best_distance = std::max<std::size_t>(2, 2 * word.size() / 3) + 1;
+    std::size_t best_distance = kLongest;
     for (const std::string& candidate : candidates) {
         if (candidate.size() > kLongest)
             continue;
+        // One edit for every three letters begun, as clang has it. Of four letters two are half:
+        // then the first one, which is seldom wrong (Pollock and Zamora 1984), must be right.
+        const bool is_half = word.size() == 4 && !candidate.starts_with(word.front());
+        const std::size_t limit = is_half ? 2 : 2 * ((word.size() + 2) / 3);
         const std::size_t d = distance(word, candidate);
-        if (d < best_distance) {
+        // Of two as near, the longer one has more letters as they were typed.
+        if (d <= limit &&
+            (d < best_distance || (d == best_distance && candidate.size() > best.size()))) {
             best = candidate;
             best_distance = d;
         }

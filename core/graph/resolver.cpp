@@ -212,6 +212,32 @@ ValueId Resolver::findInGraph(const Word& from, ScopeId graph, std::string_view 
     return kNoId;
 }
 
+/// What a pass or a loop gives, and what is in it; `rest` where it could be anything.
+void Resolver::addSources(std::vector<std::string>& sources, const std::string& name, NodeId id,
+                          const std::string& rest) const {
+    const PlannedNode& node = c_->graph.nodes[id];
+    for (const PlannedOutput& output : node.outputs)
+        sources.push_back(name + c_->graph.values[output.value].name.substr(node.name.size()));
+    if (node.loop != kNoId) {
+        const Scope& body = c_->scopes[c_->loop_scopes.at(id)];
+        for (const auto& [inner, inner_id] : body.nodes)
+            addSources(sources, name + "." + inner, inner_id, "");
+        for (const auto& [inner, graph] : body.graphs)
+            addGraphSources(sources, name + "." + inner, graph, "");
+    } else if (node.type == nullptr) {
+        sources.push_back(name + rest);
+    }
+}
+
+void Resolver::addGraphSources(std::vector<std::string>& sources, const std::string& name,
+                               ScopeId graph, const std::string& rest) const {
+    if (graph == kNoId)
+        sources.push_back(name + rest);
+    else
+        for (const OutputDesc& output : c_->scopes[graph].graph->outputs)
+            sources.push_back(name + "." + output.name.text);
+}
+
 void Resolver::reportUnknownPass(const Word& from, const std::string& first,
                                  std::string_view port) {
     const std::string rest = port.empty() ? "" : "." + std::string(port);
@@ -223,19 +249,11 @@ void Resolver::reportUnknownPass(const Word& from, const std::string& first,
             if (c_->isInside(c_->scopes[scope_].loop, node_id))
                 continue;
             passes.push_back(name);
-            const PlannedNode& node = c_->graph.nodes[node_id];
-            for (const PlannedOutput& output : node.outputs)
-                sources.push_back(name +
-                                  c_->graph.values[output.value].name.substr(node.name.size()));
-            if (node.type == nullptr) // a loop, whose passes have outputs, too; or not known
-                sources.push_back(name + rest);
+            addSources(sources, name, node_id, rest);
         }
         for (const auto& [name, graph] : scope.graphs) {
             passes.push_back(name);
-            sources.push_back(name + rest);
-            if (graph != kNoId)
-                for (const OutputDesc& output : c_->scopes[graph].graph->outputs)
-                    sources.push_back(name + "." + output.name.text);
+            addGraphSources(sources, name, graph, rest);
         }
         // The sign before a name is forgotten as easily as a letter.
         if (scope.graph == nullptr) {

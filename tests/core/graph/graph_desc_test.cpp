@@ -146,6 +146,19 @@ TEST(Nearest, FindsWhatWasMeant) {
     EXPECT_EQ(nearest("osrt", words), "sort");
     EXPECT_EQ(nearest("refine", words), "");
     EXPECT_EQ(nearest("", words), "");
+    // One edit for every three letters begun.
+    EXPECT_EQ(nearest("srt", words), "sort");
+    EXPECT_EQ(nearest("srq", words), "");
+    EXPECT_EQ(nearest("rasta", {"raster"}), "raster");
+    EXPECT_EQ(nearest("cmbie", words), "combine");
+    // Half of the letters may be wrong, but not the first.
+    EXPECT_EQ(nearest("srtt", {"sort"}), "sort");
+    EXPECT_EQ(nearest("soap", {"sort"}), "sort");
+    EXPECT_EQ(nearest("form", {"sort"}), "");
+    EXPECT_EQ(nearest("cbine", {"combined"}), "");
+    // "in" is one edit away, too, but keeps less of what was typed.
+    EXPECT_EQ(nearest("mi", {"in", "min"}), "min");
+    EXPECT_EQ(nearest("mox", {"mix", "max"}), "mix");
 }
 
 TEST(GraphTypes, AreHonesAndThePasses) {
