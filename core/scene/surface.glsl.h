@@ -27,6 +27,11 @@ struct Surface {
     vec2 barycentrics; ///< weights of the triangle's second and third vertex
 };
 
+/// Of what `hit` (not a miss) names: kMaterialMirror and the like.
+uint materialFlags(Hit hit) {
+    return scene_materials[scene_meshes[scene_instances[hit.instance].mesh].material].flags;
+}
+
 vec3 worldPosition(Instance instance, uint vertex) {
     return instance.to_world * vec4(scene_positions[vertex], 1.0f);
 }

@@ -30,7 +30,7 @@ void kernel(uint index) {
     Hit hit = gbuffer[index];
     if (hit.instance == kNone)
         return;
-    uint flags = scene_materials[scene_meshes[scene_instances[hit.instance].mesh].material].flags;
+    uint flags = materialFlags(hit);
     bool is_transparent = params.takes_transparent != 0u && (flags & kMaterialMasked) != 0u;
     if (is_transparent || ((flags & kMaterialMirror) != 0u && reflects(index, hit)))
         error[index] = vec2(1.0f);

@@ -72,10 +72,7 @@ bool isCovered(Surface surface, vec3 direction, float first, float last, float j
 void kernel(uint index) {
     occlusion[index] = 0.0f;
     Hit hit = gbuffer[index];
-    if (hit.instance == kNone)
-        return;
-    uint flags = scene_materials[scene_meshes[scene_instances[hit.instance].mesh].material].flags;
-    if ((flags & kMaterialMirror) == 0u)
+    if (hit.instance == kNone || (materialFlags(hit) & kMaterialMirror) == 0u)
         return;
     Ray ray = cameraRay(params.camera, params.extent, pixelCenter(index, params.extent));
     Surface surface = surfaceAt(ray, hit);
