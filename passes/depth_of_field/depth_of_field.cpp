@@ -6,7 +6,8 @@
 // (lens_blur.glsl.h), so that sharp objects neither bleed into a blurred background nor take its
 // colour, and blurred ones spread over what lies behind. What the pinhole did not see, it cannot
 // know: that is what error.dof predicts. Pixels that nothing is spread to keep their bits; with a
-// pinhole camera that is all of them.
+// pinhole camera that is all of them. Radiance above 1e30 is spread as 1e30, so that what is finite
+// or infinite gives no NaN.
 //
 // in   image   Radiance
 //      depth   Depth

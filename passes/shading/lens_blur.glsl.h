@@ -29,6 +29,13 @@ using BlurColor = vec3;
 #endif
 #include "hone/passes/shading/blur_layers.glsl.h"
 
+/// What is huge is cut where it is spread, so that sums stay finite: infinity times a layer's share
+/// of 0 would be no number.
+HONE_CONST float kBrightest = 1e30f;
+float cutToSum(float x) {
+    return x > kBrightest ? kBrightest : x;
+}
+
 /// The pixels around one that are looked at: a lattice through it, cut off at the image's border.
 struct BlurTaps {
     int stride;  ///< pixels from one to the next
@@ -126,8 +133,11 @@ vec3 lensBlurred(uint index, BlurWindow window) {
             uint pixel = blurPixel(index, window, taps, step_x, step_y);
             BlurStep off = blurStep(step_x * taps.stride, step_y * taps.stride);
             BlurDisc disc = blurDisc(confusion[pixel], window.radius_limit);
-            if (!isOutOfReach(surface, disc, off))
-                addToLayers(layers, blurShare(surface, disc, off), off, blurSource(pixel));
+            if (isOutOfReach(surface, disc, off))
+                continue;
+            vec3 color = blurSource(pixel);
+            color = vec3(cutToSum(color.x), cutToSum(color.y), cutToSum(color.z));
+            addToLayers(layers, blurShare(surface, disc, off), off, color);
         }
     }
     if (layers.arrivals <= 1.0f)

@@ -142,7 +142,8 @@ private:
                 rows[kSlopeY][x] = surface.slope_y;
                 rows[kTolerance][x] = surface.inverse_tolerance;
                 for (int c = 0; c < kChannels; ++c)
-                    rows[kColor + static_cast<std::size_t>(c)][x] = source_[index][c];
+                    rows[kColor + static_cast<std::size_t>(c)][x] =
+                        pixels_.cutToSum(source_[index][c]);
             }
         });
     }

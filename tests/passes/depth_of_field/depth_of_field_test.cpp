@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace hone {
@@ -115,6 +116,30 @@ TEST(DepthOfField, IsAMeanWhateverTheDepth) {
     }
 }
 
+/// Radiance at which sums of floats overflow, and infinity, at many depths.
+Picture hugePicture() {
+    std::mt19937 random(7);
+    return paint(
+        [](float x, float) { return x < 0 ? 3e38f : std::numeric_limits<float>::infinity(); },
+        [&](float, float) { return 0.5f + 0.01f * static_cast<float>(random() % 1000); });
+}
+
+/// A mean of what is cut at 1e30 is 1e30; what nothing spreads to is kept.
+void expectCut(const std::vector<vec3>& color, const Picture& picture) {
+    uint cut = 0;
+    for (uint i = 0; i < kPixels; ++i)
+        if (color[i] != picture.image[i]) {
+            EXPECT_NEAR(color[i].x, 1e30f, 1e25f) << i;
+            ++cut;
+        }
+    EXPECT_GT(cut, kPixels / 2);
+}
+
+TEST(DepthOfField, CutsWhatIsHugeSoThatSumsStayFinite) {
+    const Picture picture = hugePicture();
+    expectCut(BlurRun(picture, test::lensCamera(1, 2)).color(), picture);
+}
+
 TEST(DepthOfField, SpreadsAPointEvenlyOverItsDiscAndKeepsItsSum) {
     Picture picture = noisePicture(2);
     std::ranges::fill(picture.image, vec3(0));
@@ -199,6 +224,11 @@ TEST_F(DepthOfFieldVulkan, ComesNearToTheLensesImage) {
         // What is left: edges between pixels' centres, and what the pinhole did not see.
         EXPECT_LT(blurred, sharp / 3) << "focus " << focus;
     }
+}
+
+TEST_F(DepthOfFieldVulkan, CutsWhatIsHugeSoThatSumsStayFinite) {
+    const Picture picture = hugePicture();
+    expectCut(BlurRun(picture, test::lensCamera(1, 2), device()).color(), picture);
 }
 
 TEST_F(DepthOfFieldVulkan, BlursAsTheHostDoes) {
