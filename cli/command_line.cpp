@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/cli/command_options.h"
 #include "hone/cli/install_paths.h"
+#include "hone/cli/interrupt_guard.h"
 #include "hone/core/error.h"
 #include "hone/core/log.h"
 
@@ -44,6 +45,8 @@ int guarded(const std::function<int()>& command, std::ostream& err) {
         return report(problem, kTargetNotMet);
     } catch (const OutputError& problem) {
         return report(problem, kNotWritten);
+    } catch (const Interrupted& stop) {
+        return report(stop, stop.code);
     } catch (const std::exception& problem) {
         err << "internal error, please report it: ";
         return report(problem, kInternal);

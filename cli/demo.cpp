@@ -2,6 +2,7 @@
 //
 // hone demo: what smart image refinement does, shown on the built-in atrium.
 #include "hone/cli/commands.h"
+#include "hone/cli/interrupt_guard.h"
 #include "hone/cli/outputs.h"
 #include "hone/cli/progress.h"
 #include "hone/cli/report.h"

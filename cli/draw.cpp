@@ -4,6 +4,7 @@
 #include "hone/cli/commands.h"
 #include "hone/cli/draw_dot.h"
 #include "hone/cli/graphviz.h"
+#include "hone/cli/interrupt_guard.h"
 #include "hone/cli/run.h"
 #include "hone/core/error.h"
 #include "hone/core/image/atomic_file.h"

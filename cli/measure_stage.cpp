@@ -2,7 +2,6 @@
 #include "hone/cli/measure_stage.h"
 
 #include "hone/cli/bench_clock.h"
-#include "hone/cli/run.h"
 #include "hone/core/error.h"
 #include "hone/core/image/tile_order.h"
 
@@ -167,6 +166,13 @@ std::unique_ptr<Executor> MeasureStage::start(CompiledGraph graph, std::uint64_t
     return executor;
 }
 
+void MeasureStage::run(Executor& executor, RunOptions options) {
+    options.cancel = InterruptGuard::flag();
+    executor.run(options);
+    if (InterruptGuard::requested() != 0)
+        throw Interrupted("interrupted while views were measured: there is no result");
+}
+
 JudgedView MeasureStage::judge(const MeasureView& view) {
     const Camera camera = makeCamera(view.camera);
     JudgedView judged;
@@ -174,7 +180,7 @@ JudgedView MeasureStage::judge(const MeasureView& view) {
     traceTruth(judged, camera);
 
     estimate_->setCamera(camera);
-    estimate_->run();
+    run(*estimate_);
     judged.raster = imageOf(*estimate_, "raster");
     judged.error = realError(judged.raster, judged.truth);
     for (const GraphMetric& metric : metrics_)
@@ -182,7 +188,7 @@ JudgedView MeasureStage::judge(const MeasureView& view) {
 
     if (second_truth_ != nullptr) {
         second_truth_->setCamera(camera);
-        second_truth_->run();
+        run(*second_truth_);
         judged.noise = standardError(realError(imageOf(*second_truth_, "color"), judged.truth).max,
                                      judged.truth.extent);
     }
@@ -195,7 +201,7 @@ void MeasureStage::traceTruth(JudgedView& judged, const Camera& camera) {
                         hasOutput(truth_->graph(), "curve", types::kCurve);
     if (counts)
         truth_->setParameter("batch", std::to_string(kCostBatch));
-    truth_->run();
+    run(*truth_);
     judged.truth = imageOf(*truth_, "color");
     if (!counts)
         return;
@@ -232,7 +238,7 @@ RefinedFrame MeasureStage::refine(const MeasureView& view, const JudgedView& jud
         beside.position += 1e-4f * camera.right;
         for (Executor* executor : {refined_.get(), truth_.get()}) {
             executor->setCamera(beside);
-            executor->run();
+            run(*executor);
         }
         is_warm_ = true;
     }
@@ -245,7 +251,7 @@ RefinedFrame MeasureStage::refine(const MeasureView& view, const JudgedView& jud
     double ms = 0;
     std::size_t batches = 0;
     for (bool goes_on = true; goes_on;) {
-        ms += elapsedMs([&] { refined_->run(one_batch); });
+        ms += elapsedMs([&] { run(*refined_, one_batch); });
         if (frame.points.size() == 1)
             frame.estimate_ms = ms - msInLoops(*refined_);
         const std::uint64_t rays = curve.records.empty() ? 0 : curve.records.back().rays;
@@ -257,7 +263,7 @@ RefinedFrame MeasureStage::refine(const MeasureView& view, const JudgedView& jud
 
     truth_->setCamera(camera);
     if (times_truth)
-        frame.prt_ms = elapsedMs([&] { truth_->run(); });
+        frame.prt_ms = elapsedMs([&] { run(*truth_); });
     return frame;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hone/cli/commands.h"
+#include "hone/cli/interrupt_guard.h"
 #include "hone/cli/measure_graph.h"
 #include "hone/cli/measure_views.h"
 #include "hone/cli/session.h"
@@ -53,7 +54,8 @@ struct RefinedFrame {
 };
 
 /// Everything that a measurement needs: the graph made over to be judged, the graph that makes the
-/// truth, the graph as it is, and the views of the scene.
+/// truth, the graph as it is, and the views of the scene. While it lives, SIGINT and SIGTERM end
+/// what it does by Interrupted, within 250 ms while it traces.
 class MeasureStage {
 public:
     /// Warnings and progress go to console.err. Throws GraphError, SceneError, DeviceError.
@@ -72,9 +74,11 @@ public:
 
 private:
     std::unique_ptr<Executor> start(CompiledGraph graph, std::uint64_t seed);
+    static void run(Executor& executor, RunOptions options = {});
     /// Runs the truth's graph in batches of 16 pixels, so that the rays of each are known.
     void traceTruth(JudgedView& judged, const Camera& camera);
 
+    InterruptGuard interrupts_;
     MeasureArguments arguments_;
     Session session_; // owns the devices: before what lives on them
     Scene scene_;

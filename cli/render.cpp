@@ -4,6 +4,7 @@
 #include "hone/cli/check_report.h"
 #include "hone/cli/commands.h"
 #include "hone/cli/copies.h"
+#include "hone/cli/interrupt_guard.h"
 #include "hone/cli/json.h"
 #include "hone/cli/outputs.h"
 #include "hone/cli/progress.h"

@@ -1,49 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hone/cli/run.h"
 
+#include "hone/cli/interrupt_guard.h"
 #include "hone/cli/progress.h"
 #include "hone/core/error.h"
 #include "hone/core/image/atomic_file.h"
 
-#include <atomic>
-#include <csignal>
 #include <filesystem>
 #include <ostream>
 
 namespace hone::cli {
-namespace {
-
-// What a signal handler may touch.
-std::atomic<int> interrupt_signal = 0;
-std::atomic<bool> is_interrupted = false;
-static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
-using Handler = void (*)(int);
-Handler previous_int = SIG_DFL;
-Handler previous_term = SIG_DFL;
-
-void remember(int signal) {
-    interrupt_signal = signal;
-    is_interrupted = true;
-}
-
-} // namespace
-
-InterruptGuard::InterruptGuard() {
-    interrupt_signal = 0;
-    is_interrupted = false;
-    previous_int = std::signal(SIGINT, remember);
-    previous_term = std::signal(SIGTERM, remember);
-}
-
-InterruptGuard::~InterruptGuard() {
-    std::signal(SIGINT, previous_int);
-    std::signal(SIGTERM, previous_term);
-}
-
-int InterruptGuard::requested() {
-    return interrupt_signal == 0 ? 0 : 128 + interrupt_signal;
-}
-
 std::unique_ptr<Stage> makeStage(const RenderArguments& arguments, const Console& console) {
     auto stage = std::make_unique<Stage>(arguments.plugins);
     CompiledGraph graph =
@@ -81,7 +47,7 @@ void runWithProgress(Stage& stage, const RenderArguments& arguments, const Conso
     options.max_ms = arguments.max_ms;
     options.max_rays = arguments.max_rays;
     options.max_iterations = arguments.iterations;
-    options.cancel = &is_interrupted;
+    options.cancel = InterruptGuard::flag();
     options.on_iteration = [&](const LoopRecord& record) {
         progress.show(record);
         return true;

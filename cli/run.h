@@ -29,17 +29,6 @@ struct Stage {
 [[nodiscard]] std::unique_ptr<Stage> makeStage(const RenderArguments& arguments,
                                                const Console& console);
 
-/// Turns SIGINT and SIGTERM into a request to stop while it lives.
-class InterruptGuard {
-public:
-    InterruptGuard();
-    ~InterruptGuard();
-    InterruptGuard(const InterruptGuard&) = delete;
-    InterruptGuard& operator=(const InterruptGuard&) = delete;
-    /// 0, or the exit code of the signal that came (130, 143).
-    [[nodiscard]] static int requested();
-};
-
 /// Runs with live progress; stops within 250 ms when interrupted while it traces.
 void runWithProgress(Stage& stage, const RenderArguments& arguments, const Console& console);
 

@@ -39,10 +39,10 @@ private:
     std::jthread thread_;
 };
 
-class InterruptedRender : public testing::TestWithParam<std::pair<int, int>> {};
+class InterruptedCommand : public testing::TestWithParam<std::pair<int, int>> {};
 
 // Half a minute's work in iterations of half a second.
-TEST_P(InterruptedRender, EndsWithItsCodeAndWritesWhatIsThere) {
+TEST_P(InterruptedCommand, RendersWhatIsThereAndEndsWithItsCode) {
     const auto [signal, code] = GetParam();
     const TemporaryFolder folder;
     const Nagging nagging(signal);
@@ -59,7 +59,35 @@ TEST_P(InterruptedRender, EndsWithItsCodeAndWritesWhatIsThere) {
         EXPECT_TRUE(std::filesystem::is_regular_file(path.get<std::string>())) << path;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, InterruptedRender,
+// Before the first view's truth, half a minute's work, is traced.
+TEST_P(InterruptedCommand, LeavesNothingOfAMeasurement) {
+    if (!whyNoRaster().empty())
+        GTEST_SKIP() << whyNoRaster();
+    const auto [signal, code] = GetParam();
+    const std::vector<std::vector<std::string>> commands{{"measure", "sir", "-o", ""},
+                                                         {"bench", "figure10", "-o", ""},
+                                                         {"fit", "sir", "-o", "fitted.json"}};
+    for (std::vector<std::string> arguments : commands) {
+        SCOPED_TRACE(arguments.front());
+        const TemporaryFolder folder;
+        arguments.back() = folder.path(arguments.back());
+        for (const char* more :
+             {"--scene", "builtin:cornell", "--size", "64x48", "--truth-samples", "20000"})
+            arguments.emplace_back(more);
+        const Nagging nagging(signal);
+        const auto begin = std::chrono::steady_clock::now();
+        const CommandRun run = runHone(arguments);
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+        EXPECT_EQ(run.code, code) << run.err;
+        EXPECT_LT(passed.count(), 5);
+        EXPECT_NE(run.err.find("interrupted while views were measured"), std::string::npos)
+            << run.err;
+        EXPECT_EQ(run.out, "");
+        EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, InterruptedCommand,
                          testing::Values(std::pair(SIGINT, 130), std::pair(SIGTERM, 143)),
                          [](const auto& test) {
                              return test.param.first == SIGINT ? "Sigint" : "Sigterm";
