@@ -17,12 +17,6 @@
 namespace hone {
 namespace {
 
-/// The sRGB transfer function (IEC 61966-2-1). NaN counts as 0.
-float encodeSrgb(float linear) {
-    const float x = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;
-    return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
-}
-
 std::optional<std::size_t> channelOf(const ImageLayer& layer, std::string_view name) {
     const auto found = std::find(layer.channel_names.begin(), layer.channel_names.end(), name);
     if (found == layer.channel_names.end())
@@ -101,12 +95,18 @@ std::vector<std::string> usualChannelNames(std::size_t channels) {
     }
 }
 
+// The sRGB transfer function (IEC 61966-2-1).
+float toDisplay(float radiance) {
+    const float x = radiance > 0.0f ? std::min(radiance, 1.0f) : 0.0f;
+    return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
+}
+
 RgbImage toDisplay(const RgbImage& image) {
     RgbImage result = image;
     result.is_display = true;
     if (!image.is_display)
         for (vec3& pixel : result.pixels)
-            pixel = vec3(encodeSrgb(pixel.x), encodeSrgb(pixel.y), encodeSrgb(pixel.z));
+            pixel = vec3(toDisplay(pixel.x), toDisplay(pixel.y), toDisplay(pixel.z));
     return result;
 }
 

@@ -36,6 +36,8 @@ struct RgbImage {
 /// Linear to display: cut to [0,1] (NaN to 0) and sRGB-encoded. A display image comes back as it
 /// is.
 [[nodiscard]] RgbImage toDisplay(const RgbImage& image);
+/// The same for a channel of radiance.
+[[nodiscard]] float toDisplay(float radiance);
 
 /// Display values in [0,1], already encoded, rounded to 8 bits, opaque. Others are cut; NaN is 0.
 [[nodiscard]] Image8 quantize(uvec2 extent, std::span<const vec3> display);

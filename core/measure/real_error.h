@@ -13,9 +13,9 @@ struct RealError {
     std::vector<float> square; ///< mean of the channels' squared differences; its mean is the MSE
 };
 
-/// What pass measure.error gives by default and with norm mean_square, for images that are already
-/// on the host. A channel of which either is not finite and that is not the same bits differs by 1.
-/// Throws InputError if the extents differ.
+/// What pass measure.error gives by default and with norm mean_square, by the same source, for
+/// images of radiance that are already on the host. A channel of which either is not finite and
+/// that is not the same bits differs by 1. Throws InputError if the extents differ.
 [[nodiscard]] RealError realError(const RgbImage& image, const RgbImage& truth);
 
 } // namespace hone

@@ -21,17 +21,7 @@ float shown(float radiance) {
     return params.space == kDisplay ? displayed(radiance, params.exposure, params.curve) : radiance;
 }
 
-bool isFinite(float x) {
-    return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
-}
-
-/// |a - b| as the chosen space has it; 1 where one of them is not a number that can be compared.
-float differenceOf(float a, float b) {
-    if (floatBitsToUint(a) == floatBitsToUint(b))
-        return 0.0f;
-    float difference = abs(shown(a) - shown(b));
-    return isFinite(a) && isFinite(b) && isFinite(difference) ? difference : 1.0f;
-}
+#include "hone/core/measure/real_error.glsl.h"
 
 /// A temperature: 0 deep blue, 1/4 light blue, 1/2 green, 3/4 yellow, 1 and above red.
 vec3 temperature(float x) {
@@ -51,11 +41,8 @@ vec3 temperature(float x) {
 }
 
 void kernel(uint index) {
-    vec3 a = image[index];
-    vec3 b = reference[index];
-    vec3 d = vec3(differenceOf(a.x, b.x), differenceOf(a.y, b.y), differenceOf(a.z, b.z));
-    float real = params.norm == kMeanSquare ? (d.x * d.x + d.y * d.y + d.z * d.z) * (1.0f / 3.0f)
-                                            : max(max(d.x, d.y), d.z);
+    vec3 errors = channelErrors(image[index], reference[index]);
+    float real = params.norm == kMeanSquare ? meanSquare(errors) : greatest(errors);
     error[index] = vec2(real, real);
     display[index] = temperature(real * params.scale);
 }
