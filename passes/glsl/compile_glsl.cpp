@@ -195,8 +195,9 @@ CompiledGlsl compileGlsl(const std::string& source) {
         result.log = bytes.substr(sizeof log_bytes, log_bytes);
         const std::size_t begin = sizeof log_bytes + result.log.size();
         result.spirv.resize((bytes.size() - begin) / sizeof(std::uint32_t));
-        std::memcpy(result.spirv.data(), bytes.data() + begin,
-                    result.spirv.size() * sizeof(std::uint32_t));
+        if (!result.spirv.empty())
+            std::memcpy(result.spirv.data(), bytes.data() + begin,
+                        result.spirv.size() * sizeof(std::uint32_t));
     }
     return result;
 }
