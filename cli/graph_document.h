@@ -20,8 +20,9 @@ struct GraphDocument {
     [[nodiscard]] std::string fileBeside() const;
 };
 
-/// Reads a file as parseGraphFile does, with its limits and the shipped graphs. Throws GraphError with the report if
-/// anything that reading can tell is wrong; what compile() tells is not looked for.
+/// Reads a file as parseGraphFile does, with its limits and the shipped graphs. Throws GraphError
+/// with the report if anything that reading can tell is wrong; what compile() tells is not looked
+/// for.
 [[nodiscard]] GraphDocument readGraphDocument(const std::string& path);
 
 /// Compiles `document.json` with the files beside the graph. Lines are not the file's, so reports
