@@ -17,11 +17,11 @@
 //
 // The subset: write 1.0f, never 1.0; vec3(v) to shorten a vector, no swizzles of more than one
 // component; no array constructors; HONE_OUT / HONE_INOUT for parameters; HONE_CONST for constants;
-// a variable has its own statement; HONE_FLAT before a kernel whose calls shall all be inlined on the
-// host, where it then keeps its records in registers (measure: most kernels gain nothing and get
-// large); HONE_PRECISE before one whose sums and products must not be
-// fused, because the result's sign or last bit decides something. Results are the same bits at any
-// thread count because an invocation may write only its own elements.
+// a variable has its own statement; HONE_FLAT before a kernel whose calls shall all be inlined on
+// the host, where it then keeps its records in registers (measure: most kernels gain nothing and
+// get large); HONE_PRECISE before one whose sums and products must not be fused, because the
+// result's sign or last bit decides something. Results are the same bits at any thread count
+// because an invocation may write only its own elements.
 #ifndef HONE_KERNEL_GLSL_H
 #define HONE_KERNEL_GLSL_H
 

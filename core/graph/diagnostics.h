@@ -39,8 +39,8 @@ struct Diagnostic {
 [[nodiscard]] std::string format(const Diagnostic& diagnostic);
 [[nodiscard]] std::string format(const std::vector<Diagnostic>& diagnostics);
 
-/// The candidate that `word` was meant to be: the one that the fewest edits lead to, at most one for
-/// every three letters begun; of those the longest, then the first. "" if there is none.
+/// The candidate that `word` was meant to be: the one that the fewest edits lead to, at most one
+/// for every three letters begun; of those the longest, then the first. "" if there is none.
 [[nodiscard]] std::string nearest(std::string_view word,
                                   const std::vector<std::string>& candidates);
 

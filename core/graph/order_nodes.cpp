@@ -17,8 +17,7 @@ struct Dependency {
 
 class ScopeOrder {
 public:
-    ScopeOrder(Compilation& c, NodeId scope, std::uint64_t seed)
-        : c_(&c), seed_(seed) {
+    ScopeOrder(Compilation& c, NodeId scope, std::uint64_t seed) : c_(&c), seed_(seed) {
         for (NodeId id = 0; id < c.graph.nodes.size(); ++id)
             if (c.graph.nodes[id].parent == scope)
                 members_.push_back(id);

@@ -81,7 +81,9 @@ std::array<Filter, 2> derivatives(double pixels_per_degree, const Factor& factor
 Plane filtered(const Plane& plane, uvec2 extent, const Filter& filter, ParallelFor parallel_for) {
     const std::size_t width = extent.x, height = extent.y;
     Plane rows(plane.size()), result(plane.size());
-    for (const auto& [across, down] : filter) {
+    for (const SeparableFilter& part : filter) {
+        const Taps& across = part.across;
+        const Taps& down = part.down;
         const std::size_t left = across.size() / 2, above = down.size() / 2;
         forEachIndex(parallel_for, height, [&](std::size_t y) {
             const double* from = &plane[y * width];
