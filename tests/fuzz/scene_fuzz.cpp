@@ -6,18 +6,15 @@
 #include "hone/core/error.h"
 #include "hone/core/scene/scene.h"
 #include "hone/tests/fuzz/require.h"
+#include "hone/tests/support/temporary_folder.h"
 
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 
 namespace hone {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// What scene files may name as their model: a triangle.
 constexpr std::string_view kModel = R"({
@@ -27,24 +24,6 @@ constexpr std::string_view kModel = R"({
     "bufferViews": [{"buffer": 0, "byteLength": 36}],
     "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]
 })";
-
-/// Where the file under test is written, gone when the process ends in order.
-class Folder {
-public:
-    Folder() {
-        std::string pattern = (fs::temp_directory_path() / "hone-fuzz-XXXXXX").string();
-        path_ = ::mkdtemp(pattern.data());
-        write("square.gltf", kModel);
-    }
-    ~Folder() { fs::remove_all(path_); }
-    std::string write(const char* name, std::string_view bytes) const {
-        std::ofstream(path_ / name, std::ios::binary) << bytes;
-        return (path_ / name).string();
-    }
-
-private:
-    fs::path path_;
-};
 
 bool isFinite(vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -91,17 +70,17 @@ void checkScene(const Scene& scene) {
 }
 
 void loadBytes(std::string_view bytes) {
-    static const Folder folder;
+    static const test::TemporaryFolder folder;
+    static const std::string model = folder.write("square.gltf", std::string(kModel));
     const bool is_text = bytes.find("\"asset\"") != std::string_view::npos;
     const char* name = bytes.starts_with("glTF") ? "model.glb"
                        : is_text                 ? "model.gltf"
                                                  : "lamp.scene.json";
-    const std::string path = folder.write(name, bytes);
+    const std::string path = folder.write(name, std::string(bytes));
     try {
         checkScene(loadScene(path));
     } catch (const SceneError& error) {
-        require(std::string_view(error.what()).find(path.substr(0, path.rfind('/'))) !=
-                    std::string_view::npos,
+        require(std::string_view(error.what()).find(folder.path()) != std::string_view::npos,
                 "the message names the file, or one that it names");
     }
 }

@@ -43,6 +43,9 @@
 
 #include "hone/core/device/kernel.glsl.h"
 
+#include <array>
+#include <utility>
+
 namespace hone {
 namespace {
 
@@ -68,24 +71,27 @@ public:
     }
 
 private:
-    /// Ranges of maps of another size would be looked up beside them. Who fills these buffers does
-    /// so with the same parameters every time: reading them once is enough.
+    /// Ranges of maps of another size would be looked up beside them. Sizes are read again where
+    /// the records are others, or elsewhere.
     void checkRanges(PassContext& context) {
-        const Value& ranges = context.in("shadow_ranges");
-        if (checked_ == ranges.buffer.data)
+        const BufferView maps = context.in("shadow_maps").buffer;
+        const BufferView ranges = context.in("shadow_ranges").buffer;
+        const std::array records{std::pair(maps.data, maps.bytes),
+                                 std::pair(ranges.data, ranges.bytes)};
+        if (checked_ == records)
             return;
         context.chosen->finish();
-        const auto size = static_cast<uint>(context.in("shadow_maps").as<float>()[0]);
+        const auto size = static_cast<uint>(maps.as<float>()[0]);
         const uint cells = ranges.as<uvec2>()[0].x;
         if (cells != (size + 1) / 2)
             throw GraphError(
                 std::string(context.pass_name) + ": the shadow maps have faces of " +
                 std::to_string(size) + " texels, but the shadow ranges were made of maps with " +
                 std::to_string(2 * cells) + "; connect the maps that pass shadow_range reads");
-        checked_ = ranges.buffer.data;
+        checked_ = records;
     }
 
-    const std::byte* checked_ = nullptr; ///< ranges that are of the right size
+    std::array<std::pair<std::byte*, std::size_t>, 2> checked_{}; ///< where sizes were right
 };
 
 } // namespace
