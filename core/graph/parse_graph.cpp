@@ -216,6 +216,7 @@ private:
         const std::optional<fs::path> path = pathOf(reporter, name, folder.path);
         if (!path)
             return std::nullopt;
+        std::string places;
         for (std::size_t root = folder.root; root < roots_.size(); ++root) {
             File file{(roots_[root].folder / *path).generic_string(),
                       {root, path->parent_path()},
@@ -225,11 +226,10 @@ private:
             file.text = roots_[root].read(path->generic_string());
             if (file.text)
                 return file;
+            places += (places.empty() ? "\"" : ", then at \"") + file.shown + "\"";
         }
         reporter.error("E0310", name.place, "the file \"" + name.text + "\" cannot be read",
-                       "it is looked for at \"" +
-                           (roots_[folder.root].folder / *path).generic_string() +
-                           "\": does it exist, and may you read it?");
+                       "it is looked for at " + places + ": does it exist, and may you read it?");
         return std::nullopt;
     }
 
